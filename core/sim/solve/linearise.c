@@ -67,6 +67,7 @@ static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body
   if (!spore_island_system_assembles(system, body)) {
     const double *mass = spore_island_system_mass(system, body);
     for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_island_system_inertia(system, body) * mass[e];
+    for (size_t e = 0; body->preconditioner.rows && e < 9; e++) blocks[9 + e] += body->preconditioner.turning[e];
     return;
   }
   for (size_t i = 0; i < body->block_count; i++)
@@ -127,6 +128,7 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
     SporeBody *body = spore_island_system_body(system, b, &site);
     body_diagonal(system, body, blocks + 3 * site->v);
   }
+  system->together = spore_island_system_factorise(system, blocks);
   spore_couplings_diagonal(contact_couplings(system), system->contact_couplings, blocks);
   spore_couplings_diagonal(spring_couplings(system), system->spring_couplings, blocks);
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -199,6 +201,7 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   SporeIslandSystem *system = data;
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
+  spore_island_system_load_levers(system, c2);
   make_preconditioner(system, q);
   if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
 }
@@ -241,6 +244,7 @@ bool spore_island_system_reuse(void *data, const double *q, const double *v, dou
   system->contact_couplings = system->spring_couplings = system->dragging = 0;
   if (has_factors_alone(system)) return true;
   linearise_terms(system, q, v, c, c2, true);
+  spore_island_system_load_levers(system, c2);
   make_preconditioner(system, q);
   return true;
 }
@@ -295,6 +299,8 @@ void spore_island_system_multiply(void *data, const double *x, double *y) {
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) {
       spore_island_system_weigh(system, body, x + site->v, y + site->v);
+      if (body->preconditioner.rows)
+        spore_blocks_add(body->preconditioner.turning, 1, 1, x + site->v + 3, y + site->v + 3);
       continue;
     }
     memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
@@ -322,7 +328,8 @@ void spore_island_system_precondition(void *data, const double *r, double *z) {
   assert(r != z);
   SporeIslandSystem *system = data;
   const double *inverse = spore_island_system_precondition_blocks(system);
-  for (size_t b = 0; b < system->island->kept_count; b++) {
+  if (system->together) spore_island_system_factor_solve(system, r, z);
+  for (size_t b = 0; b < system->island->kept_count && !system->together; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (body->preconditioner.factor_ready)

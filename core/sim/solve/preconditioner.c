@@ -112,8 +112,11 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
 }
 
 bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
-  for (size_t b = 0; b < world->body_count; b++)
+  for (size_t b = 0; b < world->body_count; b++) {
     if (!spore_body_create_factor(world, &world->bodies[b], error)) return false;
+    if (!spore_body_create_rows(&world->bodies[b]))
+      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+  }
   return true;
 }
 
@@ -258,11 +261,31 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   }
 }
 
+/* The same for a small island of rigid bodies: whether its matrix is factorised as a whole. Contacts that do not
+ * converge are no sign that this would help: they come and go. */
+static bool choose_together(const SporeIslandSystem *system) {
+  const SporeStepResult *result = &system->island->result;
+  bool hard = result->unsolved > 0 || (!result->converged && system->island->contact_count == 0), again = false;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeFactorChoice *choice = &spore_island_system_body(system, b, &site)->preconditioner.choice;
+    if (hard && !choice->needed) {
+      choice->needed = true;
+      choice->steps = 0;
+      again |= !result->converged;
+    } else if (choice->needed && ++choice->steps >= TRIAL_STEPS) {
+      choice->needed = false;
+    }
+  }
+  return again;
+}
+
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
   assert(island->kept_count <= island->body_count);
   assert(island->body_start + island->body_count <= world->body_count);
   const SporeStepResult *result = &island->result;
   SporeIslandSystem system = {.world = world, .island = island};
+  if (spore_island_system_is_small(&system)) return choose_together(&system);
   bool again = false, alone = !spore_island_system_couples(&system);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
