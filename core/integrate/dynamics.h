@@ -76,6 +76,7 @@ typedef struct SporeDynamics {
   void (*keep)(void *data, const SporeEquation *equation);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
   double (*distance)(void *data, const double *x);
+  bool buckles;            /* A is the whole of some body's stiffness, which `definite` is asked about */
   bool held;               /* by pins, or by links to what does not follow from q */
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
 } SporeDynamics;

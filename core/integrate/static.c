@@ -5,7 +5,9 @@
 
 #include "core/base/text.h"
 #include "core/integrate/stage.h"
+#include "core/math/vector.h"
 #include "core/nonlinear/line_search.h"
+#include "core/nonlinear/trust.h"
 
 #define EFFORT 16               /* of the iterations of a step, as the doc of newton_iterations says */
 #define PSEUDO_STEP_MAXIMUM 1e5 /* of h: beyond it inertia is nothing beside stiffness */
@@ -23,18 +25,35 @@
  * H that grows as the residual falls (pseudo-transient continuation; Kelley and Keyes 1998). Each iteration moves q =
  * drift(base, x, h) with r = H^2/h f and A = M + H^2 K + H^2/h D.
  *
- * K is the whole stiffness, which is negative where something buckles. H is so small that A is positive definite all
- * the same: then each iteration goes down in energy, as a body without inertia would move, away from a balance that is
- * not stable and to the one that the load leads to; near a stable balance H is large, and convergence is that of
- * Newton's method. With the negative part left out of A it would be slow wherever something is compressed. */
+ * Where something may buckle, K is the whole stiffness, which is negative there. H is so small that A is positive
+ * definite all the same: then each iteration goes down in energy, as a body without inertia would move, away from a
+ * balance that is not stable and to the one that the load leads to; near a stable balance H is large, and convergence
+ * is that of Newton's method. With the negative part left out of A it would be slow wherever something is compressed.
+ *
+ * Elsewhere the first attempt has H so long that there is no inertia, and takes full steps on trust; the next one
+ * begins with a short H. */
 typedef struct Balance {
   const SporeDynamics *dynamics;
   const SporeSolverFields *fields;
   double h, pseudo_step;
-  double wanted;        /* norm of the load, N / kg^1/2 */
-  double *base, *moved; /* where it has got to, and the sum of x that took it there: a velocity */
+  double wanted;          /* norm of the load, N / kg^1/2 */
+  size_t iterations_most; /* of the step so far, at which the attempt ends */
+  double *base, *moved;   /* where it has got to, and the sum of x that took it there: a velocity */
   double *q, *v, *work;
+  double *from; /* where it was before the last iteration */
+  bool came;    /* by an iteration, from there */
 } Balance;
+
+/* Newton's method in one attempt. */
+typedef struct Search {
+  SporeSystem system;
+  double *rest, *d, *r; /* zeros: where it is; the step; the residual there */
+  double *trial, *trial_r, *linear;
+  double norm, after; /* of the residual where it is, and at the trial */
+  bool stirs;         /* the last iteration left more than half of the residual: along what is stiff that is rounding */
+  SporeTrust trust;
+  double *base, *moved, *trusted; /* where trust was given, and the step that was taken on it */
+} Search;
 
 static double scale(const Balance *balance) { return balance->pseudo_step * balance->pseudo_step / balance->h; }
 
@@ -54,6 +73,8 @@ static void residual(void *data, const double *x, double *r) {
 /* Goes on from where x leads. */
 static void move(Balance *balance, const double *x) {
   const SporeDynamics *dynamics = balance->dynamics;
+  memcpy(balance->from, balance->base, dynamics->q_count * sizeof *balance->from);
+  balance->came = true;
   dynamics->drift(dynamics->data, balance->base, x, balance->h, balance->base, balance->v);
   for (size_t i = 0; i < 3 * dynamics->block_count; i++) balance->moved[i] += x[i];
   dynamics->set_mass(dynamics->data, balance->base);
@@ -89,7 +110,8 @@ static bool linearise(Balance *balance, SporeStepResult *result) {
   for (int tries = 0; tries < INDEFINITE_MOST && !spore_cancel_asked(dynamics->cancel);
        tries++, shrink_pseudo_step(balance)) {
     double c2 = balance->pseudo_step * balance->pseudo_step;
-    dynamics->linearise(dynamics->data, balance->base, NULL, balance->moved, c2 / balance->h, c2);
+    dynamics->linearise(dynamics->data, balance->base, balance->came ? balance->from : NULL, balance->moved,
+                        c2 / balance->h, c2);
     result->linearisations++;
     if (dynamics->definite(dynamics->data)) return true;
   }
@@ -111,46 +133,120 @@ static SporeLinearResult solve(const Balance *balance, const double *r, double *
   return spore_pcg(&operator, r, LINEAR_TOLERANCE, most, d, scratch);
 }
 
-/* One iteration, from the force f at the base. */
-static void iterate(Balance *balance, const double *rest, double *f, double *scratch, SporeStepResult *result) {
-  size_t n = 3 * balance->dynamics->block_count;
-  double *d = scratch, *trial = d + n, *trial_r = trial + n, *linear = trial_r + n;
-  for (size_t i = 0; i < n; i++) f[i] *= scale(balance);
-  SporeLinearResult solved = solve(balance, f, d, linear);
-  result->linear_iterations += solved.iterations;
-  result->unsolved += solved.status == SPORE_LINEAR_TOO_MANY || solved.status == SPORE_LINEAR_BREAKDOWN;
-  SporeSystem system = {
-      .data = balance, .count = n, .cancel = balance->dynamics->cancel, .residual = residual, .norm = dual_norm};
-  double norm = dual_norm(balance, f), after = 0, length = 0;
-  /* Terms that couple bodies are not in the factors, and may show only now that the matrix is not definite. */
-  if (solved.status != SPORE_LINEAR_INDEFINITE)
-    length = spore_line_search(&system, rest, d, f, norm, false, 0, trial, trial_r, &after, &result->force_evaluations);
-  if (length == 0) {
-    shrink_pseudo_step(balance);
-    return;
-  }
-  move(balance, trial);
-  change_pseudo_step(balance, length, norm, after);
+static double kinetic_length(const Balance *balance, const double *d) {
+  balance->dynamics->mass_multiply(balance->dynamics->data, d, balance->work);
+  return sqrt(spore_vector_dot(3 * balance->dynamics->block_count, d, balance->work));
 }
 
-/* False: not reached. scratch: rest, f, three of an iteration, and those of the linear solver. */
+static void give_trust(const Balance *balance, Search *search, double step) {
+  size_t n = search->system.count;
+  spore_trust_give(&search->trust, step, search->norm);
+  memcpy(search->base, balance->base, balance->dynamics->q_count * sizeof *search->base);
+  memcpy(search->moved, balance->moved, n * sizeof *search->moved);
+  memcpy(search->trusted, search->d, n * sizeof *search->trusted);
+}
+
+/* Back to where trust was given. */
+static void take_trust(Search *search, Balance *balance, size_t *evaluations) {
+  const SporeDynamics *dynamics = balance->dynamics;
+  size_t n = search->system.count;
+  search->trust.given = false;
+  search->trust.failures++;
+  search->norm = search->trust.norm;
+  memcpy(balance->base, search->base, dynamics->q_count * sizeof *search->base);
+  memcpy(balance->moved, search->moved, n * sizeof *search->moved);
+  memcpy(search->d, search->trusted, n * sizeof *search->d);
+  dynamics->set_mass(dynamics->data, balance->base);
+  residual(balance, search->rest, search->r);
+  ++*evaluations;
+}
+
+/* Whether full steps may be trusted: not where forces set in and end, nor where the nearest balance is wanted. */
+static bool may_trust(const Balance *balance, const Search *search) {
+  return !balance->dynamics->switches && !balance->dynamics->buckles && search->trust.failures < SPORE_TRUST_FAILURES;
+}
+
+/* A step along d, to the trial: the full one where that halves the residual or deserves trust, else one along the line.
+ * Returns its length, or 0 where no length helps. */
+static double take_step(Balance *balance, Search *search, size_t *evaluations) {
+  size_t n = search->system.count;
+  SporeTrust *trust = &search->trust;
+  memcpy(search->trial, search->d, n * sizeof *search->trial);
+  residual(balance, search->trial, search->trial_r);
+  ++*evaluations;
+  search->after = dual_norm(balance, search->trial_r);
+  double step = kinetic_length(balance, search->d);
+  if (search->after <= 0.5 * (trust->given ? trust->norm : search->norm)) {
+    trust->given = false;
+    return 1;
+  }
+  if (trust->given && spore_trust_is_promising(trust, step, search->after)) return 1;
+  bool tried = !trust->given;
+  if (trust->given) {
+    take_trust(search, balance, evaluations);
+  } else if (may_trust(balance, search) && isfinite(search->after) &&
+             spore_vector_dot(n, search->trial_r, search->d) < 0) {
+    give_trust(balance, search, step);
+    return 1;
+  }
+  return spore_line_search(&search->system, search->rest, search->d, search->r, search->norm, tried, 0, search->trial,
+                           search->trial_r, &search->after, evaluations);
+}
+
+static Search begin_search(Balance *balance, double *scratch) {
+  size_t n = 3 * balance->dynamics->block_count;
+  Search search = {
+      .system = {
+          .data = balance, .count = n, .cancel = balance->dynamics->cancel, .residual = residual, .norm = dual_norm}};
+  search.rest = scratch;
+  search.d = search.rest + n;
+  search.r = search.d + n;
+  search.trial = search.r + n;
+  search.trial_r = search.trial + n;
+  search.base = search.trial_r + n;
+  search.moved = search.base + 2 * n;
+  search.trusted = search.moved + n;
+  search.linear = search.trusted + n;
+  memset(search.rest, 0, n * sizeof *search.rest);
+  return search;
+}
+
+/* One iteration, from the residual where it is. False: it led nowhere. */
+static bool iterate(Balance *balance, Search *search, SporeStepResult *result) {
+  SporeLinearResult solved = solve(balance, search->r, search->d, search->linear);
+  result->newton_iterations++;
+  result->linear_iterations += solved.iterations;
+  result->unsolved += solved.status == SPORE_LINEAR_TOO_MANY || solved.status == SPORE_LINEAR_BREAKDOWN;
+  /* Terms that couple bodies are not in the factors, and may show only now that the matrix is not definite. */
+  double length = 0;
+  if (solved.status != SPORE_LINEAR_INDEFINITE) length = take_step(balance, search, &result->force_evaluations);
+  if (length == 0) return false;
+  search->stirs = !(search->after <= 0.5 * search->norm);
+  move(balance, search->trial);
+  if (!search->trust.given) change_pseudo_step(balance, length, search->norm, search->after);
+  return true;
+}
+
+/* False: not reached. scratch: the search's, and that of the linear solver. */
 static bool balance_forces(Balance *balance, double *scratch, SporeStepResult *result) {
   const SporeDynamics *dynamics = balance->dynamics;
-  const SporeSolverFields *fields = balance->fields;
-  size_t n = 3 * dynamics->block_count;
-  double *rest = scratch, *f = rest + n, *work = f + n, norm = 0;
-  memset(rest, 0, n * sizeof *rest);
+  Search search = begin_search(balance, scratch);
+  double norm = 0;
   for (;;) {
-    force_after(balance, rest, f);
+    force_after(balance, search.rest, search.r);
     result->force_evaluations++;
-    norm = dual_norm(balance, f);
+    norm = dual_norm(balance, search.r);
     result->residual = balance->wanted > 0 ? norm / balance->wanted : norm;
     if (!isfinite(norm) || spore_cancel_asked(dynamics->cancel)) return false;
-    if (norm <= fields->tolerance * balance->wanted) return true;
-    if (result->newton_iterations == EFFORT * (size_t)fields->newton_iterations || !linearise(balance, result)) break;
-    if (norm * scale(balance) <= dynamics->rounding(dynamics->data, balance->h, false)) return true;
-    iterate(balance, rest, f, work, result);
-    result->newton_iterations++;
+    if (norm <= balance->fields->tolerance * balance->wanted) return true;
+    if (result->newton_iterations >= balance->iterations_most || !linearise(balance, result)) break;
+    search.norm = norm * scale(balance);
+    if (search.norm <= dynamics->rounding(dynamics->data, balance->h, search.stirs)) return true;
+    for (size_t i = 0; i < search.system.count; i++) search.r[i] *= scale(balance);
+    if (!iterate(balance, &search, result)) {
+      if (!dynamics->buckles) break;
+      shrink_pseudo_step(balance);
+    }
   }
   /* Whether the residual is down to rounding, by the last linearisation. */
   return result->linearisations > 0 && norm * scale(balance) <= dynamics->rounding(dynamics->data, balance->h, true);
@@ -168,25 +264,40 @@ static SporeStepResult creep(const SporeDynamics *dynamics, const SporeSolverFie
   return result;
 }
 
+static void start_from(Balance *balance, const double *q0, double pseudo_step) {
+  const SporeDynamics *dynamics = balance->dynamics;
+  memcpy(balance->base, q0, dynamics->q_count * sizeof *q0);
+  memset(balance->moved, 0, 3 * dynamics->block_count * sizeof *balance->moved);
+  dynamics->set_mass(dynamics->data, q0);
+  balance->pseudo_step = pseudo_step;
+  balance->came = false;
+}
+
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
   assert(h > 0);
   if (!dynamics->held) return creep(dynamics, fields, h, q0, q1, v1, scratch);
-  size_t n = 3 * dynamics->block_count;
+  size_t n = 3 * dynamics->block_count, most = EFFORT * (size_t)fields->newton_iterations;
   Balance balance = {.dynamics = dynamics, .fields = fields, .h = h};
   balance.base = scratch;
   balance.q = balance.base + 2 * n;
   balance.v = balance.q + 2 * n;
   balance.work = balance.v + n;
   balance.moved = balance.work + n;
-  double *work = balance.moved + n;
-  balance.pseudo_step = history->step_s > 0 ? fmax(history->step_s, h) : h;
-  memset(balance.moved, 0, n * sizeof *balance.moved);
-  memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
+  balance.from = balance.moved + n;
+  double *work = balance.from + 2 * n;
+  double first = history->step_s > 0 ? fmax(history->step_s, h) : dynamics->buckles ? h : PSEUDO_STEP_MAXIMUM * h;
+  start_from(&balance, q0, first);
   dynamics->force(dynamics->data, q0, balance.moved, work);
   balance.wanted = fmax(dual_norm(&balance, work), dynamics->gravity_momentum);
+  balance.iterations_most = dynamics->buckles ? most : (size_t)fields->newton_iterations;
   SporeStepResult result = {.force_evaluations = 1};
   result.converged = balance_forces(&balance, work, &result);
+  if (!result.converged && !dynamics->buckles && !spore_cancel_asked(dynamics->cancel)) { /* now with care */
+    start_from(&balance, q0, h);
+    balance.iterations_most = most;
+    result.converged = balance_forces(&balance, work, &result);
+  }
   dynamics->keep(dynamics->data, &(SporeEquation){.load = balance.wanted, .qa = balance.base, .v = balance.moved});
   history->step_s = result.converged ? balance.pseudo_step : 0;
   memcpy(q1, balance.base, dynamics->q_count * sizeof *q1);
@@ -204,6 +315,6 @@ const SporeIntegrator spore_static = {
     .remembers = true,
     .chooses_step = true,
     .damping = SPORE_DAMPING_FULL,
-    .scratch = 3 * (12 + SPORE_STAGE_SCRATCH),
+    .scratch = 3 * (19 + SPORE_STAGE_SCRATCH),
     .step = step,
 };

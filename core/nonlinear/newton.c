@@ -6,6 +6,7 @@
 #include "core/math/vector.h"
 #include "core/nonlinear/convergence.h"
 #include "core/nonlinear/line_search.h"
+#include "core/nonlinear/trust.h"
 
 #define LOOSEST 0.03
 #define CREEPS 0.3 /* an iteration that leaves more of the residual wants the whole Jacobian */
@@ -17,34 +18,10 @@ static double forcing_term(double norm, double previous, double target) {
   return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
-/* A full step may increase the residual and still be right: where springs are very stiff the step stretches them, and
- * only later steps show how little was missing. Such a step is taken on trust. Trust goes on while the steps get
- * shorter; where the residual has not become good by then, Newton's method goes back and searches along the line
- * (watchdog: R. M. Chamberlain, M. J. D. Powell, C. Lemarechal, H. C. Pedersen, Mathematical Programming Study 16,
- * 1982). No trust is given where forces set in and end: there the step may have missed the next contact, and later
- * steps tell nothing. */
-typedef struct Trust {
-  bool given;
-  double *x, *d, *r; /* where it was given: point, direction, residual */
-  double norm;
-  double shortest; /* step since then */
-  size_t idle;     /* steps since the shortest */
-  size_t failures; /* so far */
-} Trust;
-
-#define TRUST_IDLE 6
-#define TRUST_FAILURES 2
-
-/* Whether the steps still get shorter. */
-static bool is_promising(Trust *trust, double step, double norm) {
-  if (!isfinite(norm)) return false;
-  trust->idle++;
-  if (step < 0.9 * trust->shortest) {
-    trust->shortest = step;
-    trust->idle = 0;
-  }
-  return trust->idle < TRUST_IDLE;
-}
+/* Where trust was given: point, direction, residual. See core/nonlinear/trust.h. */
+typedef struct Mark {
+  double *x, *d, *r;
+} Mark;
 
 static void move(size_t n, const double *x, const double *d, double *to) {
   assert(to != x || n == 0);
@@ -73,7 +50,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   assert(x != r || system->count == 0);
   size_t n = system->count;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
-  Trust trust = {.x = scratch + 3 * n, .d = scratch + 4 * n, .r = scratch + 5 * n};
+  Mark mark = {scratch + 3 * n, scratch + 4 * n, scratch + 5 * n};
+  SporeTrust trust = {0};
   double *from = scratch + 6 * n; /* where x was before the last step */
   double *best = scratch + 7 * n; /* x of the least residual */
   SporeNonlinearResult result = {0};
@@ -101,26 +79,23 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     double step = sqrt(system->dot(system->data, d, d));
     if (good) {
       trust.given = false;
-    } else if (trust.given && !is_promising(&trust, step, trial_norm)) {
+    } else if (trust.given && !spore_trust_is_promising(&trust, step, trial_norm)) {
       /* Not made good: back, and along the line. */
       trust.given = false;
       trust.failures++;
-      memcpy(x, trust.x, n * sizeof *x);
-      memcpy(r, trust.r, n * sizeof *r);
-      memcpy(d, trust.d, n * sizeof *d);
+      memcpy(x, mark.x, n * sizeof *x);
+      memcpy(r, mark.r, n * sizeof *r);
+      memcpy(d, mark.d, n * sizeof *d);
       test.norm = trust.norm;
       length =
           spore_line_search(system, x, d, r, test.norm, false, near, trial, trial_r, &trial_norm, &result.evaluations);
     } else if (!trust.given) {
       bool overshoots = spore_vector_dot(n, trial_r, d) < 0 && isfinite(trial_norm);
-      if (!system->switches && overshoots && trust.failures < TRUST_FAILURES) {
-        trust.given = true;
-        trust.idle = 0;
-        trust.shortest = step;
-        trust.norm = test.norm;
-        memcpy(trust.x, x, n * sizeof *x);
-        memcpy(trust.r, r, n * sizeof *r);
-        memcpy(trust.d, d, n * sizeof *d);
+      if (!system->switches && overshoots && trust.failures < SPORE_TRUST_FAILURES) {
+        spore_trust_give(&trust, step, test.norm);
+        memcpy(mark.x, x, n * sizeof *x);
+        memcpy(mark.r, r, n * sizeof *r);
+        memcpy(mark.d, d, n * sizeof *d);
       } else {
         length =
             spore_line_search(system, x, d, r, test.norm, true, near, trial, trial_r, &trial_norm, &result.evaluations);
@@ -137,8 +112,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     if (last) break;
   }
   if (result.converged && test.norm > test.least) spore_convergence_return(&test, n, best, test.least, x, &result);
-  else if (trust.given && !(test.norm < trust.norm))
-    spore_convergence_return(&test, n, trust.x, trust.norm, x, &result);
+  else if (trust.given && !(test.norm < trust.norm)) spore_convergence_return(&test, n, mark.x, trust.norm, x, &result);
   spore_convergence_end(&test, system, x, &result);
   return result;
 }

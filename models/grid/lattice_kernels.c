@@ -194,12 +194,10 @@ SPORE_INLINE void add_mode_viscosity(const SporeLattice *lattice, SporeElasticit
 SPORE_INLINE void add_mode_stiffness(const SporeLattice *lattice, SporeElasticity elasticity, Law law, SporeVd weight,
                                      const SporeVd3 mode[8], SporeElementBlocks *between, ModeBlocks blocks) {
   const SporeVd33 identity = {.m = {spore_vd_all(1), {0}, {0}, {0}, spore_vd_all(1), {0}, {0}, {0}, spore_vd_all(1)}};
-  SporeChunk chunk = {.count = 1};
-  SPORE_UNROLL for (int n = 0; n < SPORE_TOGETHER; n++) chunk.gradient[n] = gradient_of(mode);
-  spore_chunk_solve(&chunk);
-  SporePoint point = spore_chunk_point(&chunk, 0);
+  SporeVd33 gradient = gradient_of(mode);
+  SporePoint point = spore_point_turned(&gradient);
   law_add_stiffness(law, weight, &identity, &point, spore_bulk_pressure(law.bulk, law_volume(law, &point)), law.bulk.k,
-                    between);
+                    false, between);
   for (int n = 0; n < 4; n++) {
     unsigned m = several[n];
     SporeVd modulus = weight * (variation_modulus(elasticity) * lattice->mode_scale[m] * lattice->mode_scale[m]);

@@ -3,7 +3,8 @@
  * With p_i the derivatives of the energy density by the stretches, the stiffness consists of the derivatives of p_i by
  * the stretches, and of the shears in the plane across axis k, between the other two axes i and j: twists, with the
  * eigenvalue (p_i + p_j)/(s_i + s_j), and flips, with (p_i - p_j)/(s_i - s_j) (Smith, De Goes and Kim 2019, "Analytic
- * eigensystems for isotropic distortion energies"). Negative eigenvalues are left out. */
+ * eigensystems for isotropic distortion energies"). Negative eigenvalues are left out, unless the stiffness is to be
+ * whole. */
 #ifndef SPORE_MODELS_TETRAHEDRA_AXES_H
 #define SPORE_MODELS_TETRAHEDRA_AXES_H
 
@@ -38,8 +39,12 @@ SPORE_INLINE SporeVdEigen spore_axes_of(const SporePoint *at, SporeAxesStiffness
   return eigen;
 }
 
-SPORE_INLINE void spore_axes_set_shear(SporeAxesStiffness *stiffness, int k, SporeVd twist, SporeVd flip) {
-  twist = spore_positive(twist), flip = spore_positive(flip);
+SPORE_INLINE void spore_axes_set_stretch(SporeAxesStiffness *stiffness, const SporeVd33 *hessian, bool whole) {
+  stiffness->stretch = whole ? *hessian : spore_without_negative(hessian);
+}
+
+SPORE_INLINE void spore_axes_set_shear(SporeAxesStiffness *stiffness, int k, SporeVd twist, SporeVd flip, bool whole) {
+  if (!whole) twist = spore_positive(twist), flip = spore_positive(flip);
   stiffness->same[k] = 0.5 * (flip + twist), stiffness->transpose[k] = 0.5 * (flip - twist);
 }
 

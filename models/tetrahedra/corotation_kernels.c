@@ -10,7 +10,7 @@ typedef struct Law {
 } Law;
 
 SPORE_INLINE Law law_of(SporeElasticity elasticity) {
-  return (Law){elasticity.mu, spore_bulk(elasticity.lambda, 0, 0, elasticity.mu)};
+  return (Law){elasticity.mu, spore_bulk(elasticity.lambda, 0, 0, spore_bulk_local(elasticity.lambda, elasticity.mu))};
 }
 
 /* t = tr S - 3, T = R */
@@ -32,9 +32,10 @@ SPORE_INLINE SporeVd law_density(Law law, const SporePoint *at) {
 
 /* The stiffness of F is 2 mu I + lambda vec(R) vec(R)^T + sum over the three twists of c_k vec(Q_k) vec(Q_k)^T, where
  * Q_k = R [s_k]x / sqrt 2, s_k an eigenvector of S, and c_k = (pressure - 2 mu) 2 / (the other two stretches).
- * 2 mu + c_k is the eigenvalue of that twist; it is clamped to be no less than 0. */
+ * 2 mu + c_k is the eigenvalue of that twist; unless the stiffness is to be whole, it is clamped to be no less than 0.
+ */
 SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *inverse, const SporePoint *at,
-                                    SporeVd pressure, double bulk, SporeElementBlocks *blocks) {
+                                    SporeVd pressure, double bulk, bool whole, SporeElementBlocks *blocks) {
   SporeVd33 stretch = spore_rotation_stretch(&at->rotation, &at->f);
   SporeVdEigen eigen = spore_vd33_eigen(&stretch);
   SporeVd factor = pressure - 2 * law.mu;
@@ -46,7 +47,8 @@ SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *in
   SporeVd coefficient[3];
   SPORE_UNROLL for (int k = 0; k < 3; k++) {
     SporeVd others = spore_vd_max(eigen.value[(k + 1) % 3] + eigen.value[(k + 2) % 3], spore_vd_all(1e-6));
-    coefficient[k] = weight * spore_vd_max(factor / others, spore_vd_all(-law.mu));
+    SporeVd twist = factor / others;
+    coefficient[k] = weight * (whole ? twist : spore_vd_max(twist, spore_vd_all(-law.mu)));
     SporeVd3 axis = spore_vd33_apply(&at->rotation.r, eigen.axis[k]);
     SPORE_UNROLL for (int a = 0; a < 3; a++) twisted[k][a] = spore_vd3_cross(axis, along[a]);
   }

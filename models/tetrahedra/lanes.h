@@ -318,6 +318,14 @@ SPORE_INLINE SporePoint spore_chunk_point(const SporeChunk *chunk, size_t n) {
   return (SporePoint){chunk->gradient[n], chunk->cofactor[n], spore_chunk_rotation(chunk, n)};
 }
 
+/* A point by itself, with its rotation. */
+SPORE_INLINE SporePoint spore_point_turned(const SporeVd33 *f) {
+  SporeChunk chunk = {.count = 1};
+  SPORE_UNROLL for (int n = 0; n < SPORE_TOGETHER; n++) chunk.gradient[n] = *f;
+  spore_chunk_solve(&chunk);
+  return spore_chunk_point(&chunk, 0);
+}
+
 /* The part of a material that resists the change of volume: energy density k/2 (t - balance)^2, less its value at t =
  * still, where the material is at rest. An element of several points takes the mean of t, and adds local/2 times the
  * mean square of the deviations from that mean: otherwise its points could swell and shrink against each other at no
@@ -326,12 +334,14 @@ typedef struct SporeBulk {
   double k, balance, still, local;
 } SporeBulk;
 
-/* Up to a Poisson's ratio of 0.3 all of it is local, and the element is the plain one. */
-SPORE_INLINE double spore_bulk_local(double k, double mu) { return k < 2.5 * mu ? k : 2.5 * mu; }
+/* Of lambda. Up to a Poisson's ratio of 0.25 all of it is local, and the element is the plain one. Near 0.5 a bar of
+ * two cells across bends too little where more of it is local, and one of a single cell too far where less is
+ * (tests/stability/test_locking.c). */
+SPORE_INLINE double spore_bulk_local(double lambda, double mu) { return fmin(lambda, mu); }
 
-SPORE_INLINE SporeBulk spore_bulk(double k, double balance, double still, double mu) {
-  assert(k >= 0 && mu > 0);
-  return (SporeBulk){k, balance, still, spore_bulk_local(k, mu)};
+SPORE_INLINE SporeBulk spore_bulk(double k, double balance, double still, double local) {
+  assert(k >= 0 && local >= 0);
+  return (SporeBulk){k, balance, still, local};
 }
 
 SPORE_INLINE SporeVd spore_bulk_pressure(SporeBulk bulk, SporeVd t) { return bulk.k * (t - bulk.balance); }

@@ -8,7 +8,7 @@
  *   law_stress           P, with pressure = k (t - balance): of shear, plus pressure T
  *   law_density          energy density of shear alone
  *   law_add_stiffness    blocks += weight times what b_a, b_b (rows of `inverse`) make of dP/dF without what is
- * negative in it, at a pressure held fast but for bulk T T^T */
+ * negative in it (whole: with it), at a pressure held fast but for bulk T T^T */
 #ifndef SPORE_MODELS_TETRAHEDRA_LOOPS_H
 #define SPORE_MODELS_TETRAHEDRA_LOOPS_H
 
@@ -27,7 +27,7 @@ typedef struct Work {
   Law law;
   const double *q, *shape, *v;
   double *f; /* forces, or the energies of the lanes */
-  double stiffness_scale, damping_scale;
+  const SporeTangent *at;
   SporeBlockMatrix *matrix;
 } Work;
 
@@ -71,12 +71,28 @@ SPORE_INLINE void add_part_energy(const Work *work, const SporePart *part, const
   spore_vd_store(lane, spore_vd_load(lane) + part->volume * density);
 }
 
+/* t where a step from another point promised it to be. */
+SPORE_INLINE SporeVd promised_volume(Law law, const SporePoint *from, const SporePoint *to) {
+  SporeVd33 spread = law_spread(law, from), change;
+  SPORE_UNROLL for (int k = 0; k < 9; k++) change.m[k] = to->f.m[k] - from->f.m[k];
+  return law_volume(law, from) + spore_vd33_product(&spread, &change);
+}
+
+/* t for the tangent. */
+SPORE_INLINE SporeVd part_volume(const Work *work, const SporePart *part, const SporePoint *point) {
+  if (!work->at->from) return law_volume(work->law, point);
+  SporeVd33 gradient = spore_part_gradient(part, work->at->from);
+  SporePoint from = SPORE_LAW_TURNS ? spore_point_turned(&gradient) : spore_point_of(&gradient);
+  return promised_volume(work->law, &from, point);
+}
+
 SPORE_INLINE void add_part_matrix(const Work *work, const SporePart *part, const SporePoint *point) {
   SporeElementBlocks blocks = {0};
-  if (work->stiffness_scale != 0)
-    law_add_stiffness(work->law, part->volume * work->stiffness_scale, &part->inverse, point,
-                      pressure_of(work->law, law_volume(work->law, point)), work->law.bulk.k, &blocks);
-  double viscous = work->damping_scale * work->elasticity.viscosity;
+  if (work->at->stiffness_scale != 0)
+    law_add_stiffness(work->law, part->volume * work->at->stiffness_scale, &part->inverse, point,
+                      pressure_of(work->law, part_volume(work, part, point)), work->law.bulk.k, work->at->whole,
+                      &blocks);
+  double viscous = work->at->damping_scale * work->elasticity.viscosity;
   if (viscous != 0) {
     SporeVd33 gradient = work->shape == work->q ? point->f : spore_part_gradient(part, work->shape);
     spore_add_viscosity(part->volume * viscous, work->elasticity.mu, work->elasticity.lambda, &part->inverse, &gradient,
@@ -87,9 +103,9 @@ SPORE_INLINE void add_part_matrix(const Work *work, const SporePart *part, const
 
 /* Quadratic tetrahedra (ten nodes). */
 
-SPORE_INLINE void quadratic_points(const Work *work, const SporePart *part, int turns,
+SPORE_INLINE void quadratic_points(const Work *work, const SporePart *part, const double *q, int turns,
                                    SporePoint point[SPORE_QUADRATIC_POINTS]) {
-  SporeQuadraticNodes x = spore_quadratic_gather(work->tetrahedra, part, work->q);
+  SporeQuadraticNodes x = spore_quadratic_gather(work->tetrahedra, part, q);
   SporeChunk chunk = {.count = SPORE_QUADRATIC_POINTS};
   for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) chunk.gradient[g] = spore_quadratic_gradient(&x, g, &part->inverse);
   if (turns) spore_chunk_solve(&chunk);
@@ -109,6 +125,18 @@ SPORE_INLINE SporeVd quadratic_mean(const SporeVd at[SPORE_QUADRATIC_POINTS]) {
 SPORE_INLINE QuadraticVolume quadratic_volume(Law law, const SporePoint point[SPORE_QUADRATIC_POINTS]) {
   QuadraticVolume volume;
   for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) volume.at[g] = law_volume(law, &point[g]);
+  volume.mean = quadratic_mean(volume.at);
+  return volume;
+}
+
+/* t for the tangent. */
+SPORE_INLINE QuadraticVolume quadratic_tangent_volume(const Work *work, const SporePart *part,
+                                                      const SporePoint point[SPORE_QUADRATIC_POINTS]) {
+  if (!work->at->from) return quadratic_volume(work->law, point);
+  SporePoint from[SPORE_QUADRATIC_POINTS];
+  QuadraticVolume volume;
+  quadratic_points(work, part, work->at->from, SPORE_LAW_TURNS, from);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) volume.at[g] = promised_volume(work->law, &from[g], &point[g]);
   volume.mean = quadratic_mean(volume.at);
   return volume;
 }
@@ -146,7 +174,7 @@ SPORE_INLINE void add_quadratic_forces(const Work *work, const SporePart *part) 
   SporePoint point[SPORE_QUADRATIC_POINTS];
   QuadraticRates rates;
   SporeQuadraticNodes pull = {0};
-  quadratic_points(work, part, SPORE_LAW_TURNS, point);
+  quadratic_points(work, part, work->q, SPORE_LAW_TURNS, point);
   QuadraticVolume volume = quadratic_volume(work->law, point);
   if (work->elasticity.viscosity > 0) quadratic_rates(work, part, &rates);
   for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
@@ -161,7 +189,7 @@ SPORE_INLINE void add_quadratic_forces(const Work *work, const SporePart *part) 
 SPORE_INLINE void add_quadratic_energy(const Work *work, const SporePart *part) {
   SporePoint point[SPORE_QUADRATIC_POINTS];
   SporeVd density[SPORE_QUADRATIC_POINTS];
-  quadratic_points(work, part, SPORE_LAW_TURNS, point);
+  quadratic_points(work, part, work->q, SPORE_LAW_TURNS, point);
   QuadraticVolume volume = quadratic_volume(work->law, point);
   for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
     SporeVd apart = volume.at[g] - volume.mean;
@@ -174,21 +202,21 @@ SPORE_INLINE void add_quadratic_energy(const Work *work, const SporePart *part) 
 
 SPORE_INLINE void add_quadratic_stiffness(const Work *work, const SporePart *part, SporeQuadraticBlocks *blocks) {
   SporePoint point[SPORE_QUADRATIC_POINTS];
-  SporeVd share = part->volume * (work->stiffness_scale / SPORE_QUADRATIC_POINTS);
+  SporeVd share = part->volume * (work->at->stiffness_scale / SPORE_QUADRATIC_POINTS);
   SporeQuadraticNodes spread = {0}; /* mean of T b_a */
   SporeBulk bulk = work->law.bulk;
-  quadratic_points(work, part, 1, point);
-  QuadraticVolume volume = quadratic_volume(work->law, point);
+  quadratic_points(work, part, work->q, 1, point);
+  QuadraticVolume volume = quadratic_tangent_volume(work, part, point);
   for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
     SporeElementBlocks corners = {0};
     law_add_stiffness(work->law, share, &part->inverse, &point[g], quadratic_pressure(work->law, &volume, g),
-                      bulk.local, &corners);
+                      bulk.local, work->at->whole, &corners);
     spore_quadratic_expand(&corners, g, blocks);
     SporeVd33 t = law_spread(work->law, &point[g]);
     spore_quadratic_spread(&part->inverse, spore_vd_all(1.0 / SPORE_QUADRATIC_POINTS), &t, g, &spread);
   }
   if (bulk.k > bulk.local)
-    spore_quadratic_add_outer(part->volume * (work->stiffness_scale * (bulk.k - bulk.local)), &spread, blocks);
+    spore_quadratic_add_outer(part->volume * (work->at->stiffness_scale * (bulk.k - bulk.local)), &spread, blocks);
 }
 
 SPORE_INLINE void add_quadratic_viscosity(const Work *work, const SporePart *part, double viscous,
@@ -209,8 +237,8 @@ SPORE_INLINE void add_quadratic_viscosity(const Work *work, const SporePart *par
 
 SPORE_INLINE void add_quadratic_matrix(const Work *work, const SporePart *part) {
   SporeQuadraticBlocks blocks = {0};
-  double viscous = work->damping_scale * work->elasticity.viscosity;
-  if (work->stiffness_scale != 0) add_quadratic_stiffness(work, part, &blocks);
+  double viscous = work->at->damping_scale * work->elasticity.viscosity;
+  if (work->at->stiffness_scale != 0) add_quadratic_stiffness(work, part, &blocks);
   if (viscous != 0) add_quadratic_viscosity(work, part, viscous, &blocks);
   spore_quadratic_add_blocks(work->tetrahedra, part, &blocks, work->matrix);
 }
@@ -245,19 +273,17 @@ double SPORE_MATERIAL_NAME(potential)(const SporeTetrahedra *tetrahedra, SporeEl
   return spore_lanes_sum(lanes);
 }
 
-void SPORE_MATERIAL_NAME(jacobian)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
-                                   const double *q, const double *shape, double stiffness_scale, double damping_scale,
-                                   SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0);
+void SPORE_MATERIAL_NAME(tangent)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
+                                  const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(at->stiffness_scale >= 0);
   assert(matrix->values);
   SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Work work = {.tetrahedra = tetrahedra,
                .elasticity = elasticity,
                .law = law_of(elasticity),
-               .q = q,
-               .shape = shape,
-               .stiffness_scale = stiffness_scale,
-               .damping_scale = damping_scale,
+               .q = at->q,
+               .shape = at->shape,
+               .at = at,
                .matrix = matrix};
   if (tetrahedra->middles) each_quadratic(&work, parts, add_quadratic_matrix);
   else each_part(&work, parts, 1, add_part_matrix);

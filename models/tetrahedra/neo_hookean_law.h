@@ -12,8 +12,9 @@ typedef struct Law {
 } Law;
 
 SPORE_INLINE Law law_of(SporeElasticity elasticity) {
-  double m = 4.0 / 3 * elasticity.mu, l = elasticity.lambda + 5.0 / 6 * elasticity.mu;
-  return (Law){m, spore_bulk(l, 1 + 0.75 * m / l, 1, elasticity.mu)};
+  double m = 4.0 / 3 * elasticity.mu, more = 5.0 / 6 * elasticity.mu, l = elasticity.lambda + more;
+  double local = spore_bulk_local(elasticity.lambda, elasticity.mu) + more;
+  return (Law){m, spore_bulk(l, 1 + 0.75 * m / l, 1, local)};
 }
 
 /* t = J, T = cof F */
@@ -37,7 +38,7 @@ SPORE_INLINE SporeVd law_density(Law law, const SporePoint *at) {
 
 /* With a = m (1 - 1/(I + 1)) and the pressure b = l (J - alpha), twist and flip are a + b s_k and a - b s_k. */
 SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *inverse, const SporePoint *at,
-                                    SporeVd pressure, double bulk, SporeElementBlocks *blocks) {
+                                    SporeVd pressure, double bulk, bool whole, SporeElementBlocks *blocks) {
   SporeAxesStiffness stiffness;
   SporeVd33 hessian;
   SporeVdEigen eigen = spore_axes_of(at, &stiffness);
@@ -49,9 +50,9 @@ SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *in
     SporeVd area = s[j] * s[k], next = s[i] * s[k];
     hessian.m[4 * i] = a + c * s[i] * s[i] + bulk * area * area;
     hessian.m[3 * i + j] = hessian.m[3 * j + i] = c * s[i] * s[j] + bulk * area * next + b * s[k];
-    spore_axes_set_shear(&stiffness, i, a + b * s[i], a - b * s[i]);
+    spore_axes_set_shear(&stiffness, i, a + b * s[i], a - b * s[i], whole);
   }
-  stiffness.stretch = spore_without_negative(&hessian);
+  spore_axes_set_stretch(&stiffness, &hessian, whole);
   spore_axes_add(&stiffness, weight, inverse, blocks);
 }
 

@@ -10,7 +10,7 @@ typedef struct Law {
 } Law;
 
 SPORE_INLINE Law law_of(SporeElasticity elasticity) {
-  return (Law){elasticity.mu, spore_bulk(elasticity.lambda, 0, 0, elasticity.mu)};
+  return (Law){elasticity.mu, spore_bulk(elasticity.lambda, 0, 0, spore_bulk_local(elasticity.lambda, elasticity.mu))};
 }
 
 /* E, Green's strain */
@@ -43,7 +43,7 @@ SPORE_INLINE SporeVd law_density(Law law, const SporePoint *at) {
 
 /* p_i = s_i (pressure + mu (s_i^2 - 1)), whose quotients come out without a division. */
 SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *inverse, const SporePoint *at,
-                                    SporeVd pressure, double bulk, SporeElementBlocks *blocks) {
+                                    SporeVd pressure, double bulk, bool whole, SporeElementBlocks *blocks) {
   SporeAxesStiffness stiffness;
   SporeVd33 hessian;
   SporeVdEigen eigen = spore_axes_of(at, &stiffness);
@@ -53,9 +53,9 @@ SPORE_INLINE void law_add_stiffness(Law law, SporeVd weight, const SporeVd33 *in
     SporeVd squares = pressure + law.mu * (s[i] * s[i] + s[j] * s[j] - 1), product = s[i] * s[j];
     hessian.m[4 * k] = pressure + law.mu * (3 * s[k] * s[k] - 1) + bulk * s[k] * s[k];
     hessian.m[3 * i + j] = hessian.m[3 * j + i] = bulk * product;
-    spore_axes_set_shear(&stiffness, k, squares - law.mu * product, squares + law.mu * product);
+    spore_axes_set_shear(&stiffness, k, squares - law.mu * product, squares + law.mu * product, whole);
   }
-  stiffness.stretch = spore_without_negative(&hessian);
+  spore_axes_set_stretch(&stiffness, &hessian, whole);
   spore_axes_add(&stiffness, weight, inverse, blocks);
 }
 

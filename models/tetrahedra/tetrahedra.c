@@ -31,8 +31,8 @@ typedef struct Material {
   void (*const *force)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity, const double *q,
                        const double *shape, const double *v, double *f);
   double (*const *potential)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity, const double *q);
-  void (*const *jacobian)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity, const double *q,
-                          const double *shape, double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+  void (*const *tangent)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
+                         const SporeTangent *at, SporeBlockMatrix *matrix);
 } Material;
 
 typedef struct Body {
@@ -149,7 +149,7 @@ typedef struct Loop {
   const Body *body;
   const double *q, *shape, *v;
   double *f;
-  double stiffness_scale, damping_scale;
+  const SporeTangent *at;
   SporeBlockMatrix *matrix;
   size_t odd; /* whether it goes through the odd slabs */
 } Loop;
@@ -184,26 +184,27 @@ static double potential(const SporeModel *model, const double *q) {
   return body->material->potential[spore_cpu_level()](&body->tetrahedra, body->elasticity, q);
 }
 
-static void add_slab_jacobian(void *data, size_t index) {
+static void add_slab_tangent(void *data, size_t index) {
   const Loop *loop = data;
   const Body *body = loop->body;
-  body->material->jacobian[spore_cpu_level()](&body->tetrahedra, 2 * index + loop->odd, body->elasticity, loop->q,
-                                              loop->shape, loop->stiffness_scale, loop->damping_scale, loop->matrix);
+  body->material->tangent[spore_cpu_level()](&body->tetrahedra, 2 * index + loop->odd, body->elasticity, loop->at,
+                                             loop->matrix);
+}
+
+static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(((const Body *)model)->material);
+  assert(at->stiffness_scale >= 0);
+  const Body *body = (const Body *)model;
+  Loop loop = {.body = body, .at = at, .matrix = matrix};
+  run(&loop, 70, add_slab_tangent);
+  spore_nodal_damp_jacobian(model, at->damping_scale * body->mass_damping, matrix);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(((const Body *)model)->material);
-  assert(stiffness_scale >= 0);
-  const Body *body = (const Body *)model;
-  Loop loop = {.body = body,
-               .q = q,
-               .shape = shape,
-               .stiffness_scale = stiffness_scale,
-               .damping_scale = damping_scale,
-               .matrix = matrix};
-  run(&loop, 70, add_slab_jacobian);
-  spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
+  SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  tangent(model, &at, matrix);
 }
 
 static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
@@ -317,25 +318,25 @@ static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coa
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets, .destroy = destroy,         \
   .place = place, .force = force, .potential = potential, .map = map, .skin = skin, .pattern = pattern,                \
-  .jacobian = jacobian, .retune = retune, .doubt = doubt, .mend = mend, .settle = settle, .cut = &cutting,             \
-  .heat = &heating, .notice = notice
+  .jacobian = jacobian, .tangent = tangent, .retune = retune, .doubt = doubt, .mend = mend, .settle = settle,          \
+  .cut = &cutting, .heat = &heating, .notice = notice
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,
-                                    spore_corotation_jacobian_by_level};
+                                    spore_corotation_tangent_by_level};
   return create(&spore_corotational_tetrahedra, &material, geometry, fields, error);
 }
 
 static SporeModel *create_neo_hookean(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_neo_hookean_force_by_level, spore_neo_hookean_potential_by_level,
-                                    spore_neo_hookean_jacobian_by_level};
+                                    spore_neo_hookean_tangent_by_level};
   return create(&spore_neo_hookean_tetrahedra, &material, geometry, fields, error);
 }
 
 static SporeModel *create_saint_venant_kirchhoff(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_saint_venant_kirchhoff_force_by_level,
                                     spore_saint_venant_kirchhoff_potential_by_level,
-                                    spore_saint_venant_kirchhoff_jacobian_by_level};
+                                    spore_saint_venant_kirchhoff_tangent_by_level};
   return create(&spore_saint_venant_kirchhoff_tetrahedra, &material, geometry, fields, error);
 }
 

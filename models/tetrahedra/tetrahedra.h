@@ -29,7 +29,7 @@
 #ifndef SPORE_MODELS_TETRAHEDRA_TETRAHEDRA_H
 #define SPORE_MODELS_TETRAHEDRA_TETRAHEDRA_H
 
-#include "core/linalg/block_matrix.h"
+#include "core/body/model.h"
 #include "core/math/simd.h"
 
 typedef struct SporeTetrahedronBatch {
@@ -72,17 +72,19 @@ static inline SporeElasticity spore_elasticity(double e, double nu, double visco
  *
  * _force: f += forces of a slab, the viscous ones with F as it is in shape.
  * _potential: energy of all, J.
- * _jacobian: matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of a slab; where shape is q, the viscous
- * force's dependence on it is left out. Modes that would make the stiffness indefinite are clamped (Smith, De Goes and
- * Kim 2019, "Analytic eigensystems for isotropic distortion energies"). */
+ * _tangent: matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of a slab; where shape is q, the viscous
+ * force's dependence on it is left out. Unless it is to be whole, modes that would make the stiffness indefinite are
+ * clamped (Smith, De Goes and Kim 2019, "Analytic eigensystems for isotropic distortion energies"). Where a step led
+ * from at->from to q, the pressure in it is the one that the step promised: near a Poisson's ratio of 0.5 a step that
+ * turns an element changes its volume to second order only, but k times that is a pressure that hides everything else.
+ */
 #define SPORE_DECLARE_MATERIAL(name)                                                                                   \
   SPORE_DECLARE_KERNEL(void, spore_##name##_force, const SporeTetrahedra *tetrahedra, size_t slab,                     \
                        SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);  \
   SPORE_DECLARE_KERNEL(double, spore_##name##_potential, const SporeTetrahedra *tetrahedra,                            \
                        SporeElasticity elasticity, const double *q);                                                   \
-  SPORE_DECLARE_KERNEL(void, spore_##name##_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,                  \
-                       SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,       \
-                       double damping_scale, SporeBlockMatrix *matrix)
+  SPORE_DECLARE_KERNEL(void, spore_##name##_tangent, const SporeTetrahedra *tetrahedra, size_t slab,                   \
+                       SporeElasticity elasticity, const SporeTangent *at, SporeBlockMatrix *matrix)
 
 SPORE_DECLARE_MATERIAL(corotation);
 SPORE_DECLARE_MATERIAL(neo_hookean);

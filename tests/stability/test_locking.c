@@ -153,9 +153,10 @@ static double tip_error(const Bar *bar, double reference) {
 
 enum { LINEAR, QUADRATIC };
 #define REFERENCE 2.54e-3 /* m, at a Poisson's ratio of 0.3: numerics.md */
-/* m, from 0.499 on: ten nodes an element on 20 x 4^2 (2.4724e-3) and 30 x 6^2 cells (2.4783e-3), extrapolated; known to
- * some 0.3 %. */
-#define REFERENCE_KEPT_VOLUME 2.483e-3
+/* m, from 0.499 on: ten nodes an element on 20 x 4^2 cells that are up to ten times as narrow at the clamp and at the
+ * edges, where stress is singular (2.5006e-3; 2.494e-3 with stiffer elements); known to some 0.2 %. Even cells, up to
+ * 30 x 6^2, converge too slowly there to be extrapolated. */
+#define REFERENCE_KEPT_VOLUME 2.497e-3
 
 /* The table of numerics.md, and the ratio from which check warns: linear tetrahedra lock, by how much, and that it goes
  * away with refinement; two cells of quadratic ones are better than eight of those. */
@@ -165,7 +166,7 @@ static void table(void) {
     unsigned along, across;
     double poisson, expected, tolerance;
   } rows[] = {{LINEAR, 10, 2, 0.3, -0.49, 0.04},  {LINEAR, 20, 4, 0.3, -0.21, 0.04},
-              {LINEAR, 40, 8, 0.3, -0.06, 0.03},  {QUADRATIC, 10, 2, 0.3, -0.006, 0.004},
+              {LINEAR, 40, 8, 0.3, -0.06, 0.03},  {QUADRATIC, 10, 2, 0.3, -0.001, 0.004},
               {LINEAR, 10, 2, 0.45, -0.69, 0.04}, {LINEAR, 10, 2, 0.499, -0.92, 0.04}};
   for (unsigned i = 0; i < G_N_ELEMENTS(rows); i++) {
     Bar bar = {&spore_corotational_tetrahedra, rows[i].variant, rows[i].along, rows[i].across, rows[i].poisson};
@@ -181,7 +182,7 @@ static void same(void) {
   for (unsigned m = 0; m < G_N_ELEMENTS(materials); m++)
     for (int variant = LINEAR; variant <= QUADRATIC; variant++) {
       Bar bar = {materials[m], variant, 10, 2, 0.3};
-      g_assert_cmpfloat(fabs(tip_error(&bar, variant == LINEAR ? 1.3062e-3 : 2.5212e-3)), <, 1e-3);
+      g_assert_cmpfloat(fabs(tip_error(&bar, variant == LINEAR ? 1.3062e-3 : 2.5376e-3)), <, 1e-3);
     }
   Bar linear = {&spore_linear_tetrahedra, LINEAR, 10, 2, 0.3},
       condensed = {&spore_condensed_tetrahedra, LINEAR, 10, 2, 0.3};
@@ -190,14 +191,15 @@ static void same(void) {
   g_assert_cmpfloat(fabs(tip_error(&condensed, cantilever(&linear))), <, 1e-5);
 }
 
-/* Case 21: each material with the element made for it, on two cells across and on one. */
+/* Case 21: each material with the element made for it, on two cells across to 1 %, and on one, where it bends too far.
+ */
 static void case_21(void) {
   static const double ratios[] = {0.499, 0.4999, 0.49999};
   for (unsigned m = 0; m < G_N_ELEMENTS(materials); m++)
     for (unsigned i = 0; i < G_N_ELEMENTS(ratios); i++)
       for (unsigned across = 1; across <= 2; across++) {
         Bar bar = {materials[m], QUADRATIC, 5 * across, across, ratios[i]};
-        g_assert_cmpfloat(fabs(tip_error(&bar, REFERENCE_KEPT_VOLUME)), <, 0.02);
+        g_assert_cmpfloat(fabs(tip_error(&bar, REFERENCE_KEPT_VOLUME)), <, across == 1 ? 0.05 : 0.01);
       }
 }
 

@@ -367,6 +367,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .rounding = spore_island_system_rounding,
                          .keep = keep,
                          .distance = distance,
+                         .buckles = spore_island_system_buckles(system),
                          .held = system->balance,
                          .gravity_momentum = system->island->gravity_momentum};
 }

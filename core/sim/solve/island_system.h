@@ -22,6 +22,7 @@ typedef struct SporeIslandSystem {
   bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
+  bool together;                              /* the preconditioner is a factor of the whole matrix */
   size_t dragging;                            /* contacts with a drag, which the current A leaves out */
   bool driven;                                /* a device moves some end */
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
@@ -148,9 +149,22 @@ void spore_island_system_add_contact_forces(const SporeIslandSystem *system, con
                                             double *f);
 void spore_island_system_soften_lanes(const SporeIslandSystem *system);
 
+/* island_factor.c. Whether the island is of rigid bodies alone, and of few. Factorises A as a whole where conjugate
+ * gradients did not solve such an island; blocks: the bodies' own diagonal blocks, 9 each. False: it is not done, or
+ * not positive definite. z = A^-1 r by that factor. */
+bool spore_island_system_is_small(const SporeIslandSystem *system);
+bool spore_island_system_wants_factor(const SporeIslandSystem *system);
+/* Sets preconditioner.turning of the bodies, zero where no such factor is wanted. After the forces at the place of the
+ * linearisation. */
+void spore_island_system_load_levers(const SporeIslandSystem *system, double c2);
+bool spore_island_system_factorise(const SporeIslandSystem *system, const double *blocks);
+void spore_island_system_factor_solve(const SporeIslandSystem *system, const double *r, double *z);
+
 /* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2);
+/* Whether the matrix of some body is its whole stiffness, which may be negative. */
+bool spore_island_system_buckles(const SporeIslandSystem *system);
 bool spore_island_system_definite(void *data);
 bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_island_system_multiply(void *data, const double *x, double *y);

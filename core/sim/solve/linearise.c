@@ -67,6 +67,7 @@ static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body
   if (!spore_island_system_assembles(system, body)) {
     const double *mass = spore_island_system_mass(system, body);
     for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_island_system_inertia(system, body) * mass[e];
+    for (size_t e = 0; body->preconditioner.rows && e < 9; e++) blocks[9 + e] += body->preconditioner.turning[e];
     return;
   }
   for (size_t i = 0; i < body->block_count; i++)
@@ -127,6 +128,7 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
     SporeBody *body = spore_island_system_body(system, b, &site);
     body_diagonal(system, body, blocks + 3 * site->v);
   }
+  system->together = spore_island_system_factorise(system, blocks);
   spore_couplings_diagonal(contact_couplings(system), system->contact_couplings, blocks);
   spore_couplings_diagonal(spring_couplings(system), system->spring_couplings, blocks);
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -141,12 +143,16 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
   }
 }
 
+/* Whether the body's matrix is its whole stiffness, negative parts and all, which the balance makes definite. */
+static bool balances(const SporeIslandSystem *system, const SporeBody *body) {
+  return system->balance && spore_body_is_static(body) && body->model->type->stiffness;
+}
+
 static void assemble(const SporeIslandSystem *system, SporeBody *body, const SporeTangent *at, double c, double c2) {
   assert(body->preconditioner.matrix.block_count == body->block_count && at->q && at->v);
   const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->preconditioner.matrix);
-  if (system->balance && spore_body_is_static(body) && type->stiffness)
-    type->stiffness(body->model, at, &body->preconditioner.matrix);
+  if (balances(system, body)) type->stiffness(body->model, at, &body->preconditioner.matrix);
   else if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
   else
     type->jacobian(body->model, at->q, at->shape, at->v, at->stiffness_scale, at->damping_scale,
@@ -169,9 +175,9 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
  * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
  * that lacks some terms. In balance it is for the caller to make the matrix definite. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
-  if (system->balance) return body->preconditioner.choice.factorised && body->model->type->stiffness;
-  return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
-         system->island->contact_count + system->island->spring_count == 0;
+  if (!body->preconditioner.choice.factorised) return false;
+  if (balances(system, body)) return true;
+  return body->model->type->tangent && system->island->contact_count + system->island->spring_count == 0;
 }
 
 /* whole: assembles all bodies, by the whole tangent where a body takes it; else only the bodies whose factor failed. */
@@ -182,12 +188,13 @@ static bool assemble_bodies(const SporeIslandSystem *system, const double *q, co
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) continue;
-    if (!whole && (body->preconditioner.factor_ready || !takes_whole(system, body))) continue;
+    bool balance = balances(system, body);
+    if (!whole && (body->preconditioner.factor_ready || balance || !takes_whole(system, body))) continue;
     assemble(system, body,
              &(SporeTangent){.q = q + site->q,
                              .shape = (system->shape ? system->shape : q) + site->q,
                              .v = v + site->v,
-                             .from = from ? from + site->q : NULL,
+                             .from = from && !balance ? from + site->q : NULL,
                              .stiffness_scale = c2,
                              .damping_scale = spore_body_is_static(body) ? 0 : c,
                              .whole = whole && takes_whole(system, body)},
@@ -203,8 +210,17 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   SporeIslandSystem *system = data;
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
+  spore_island_system_load_levers(system, c2);
   make_preconditioner(system, q);
-  if (!system->balance && assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+  if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+}
+
+bool spore_island_system_buckles(const SporeIslandSystem *system) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    if (balances(system, spore_island_system_body(system, b, &site))) return true;
+  }
+  return false;
 }
 
 bool spore_island_system_definite(void *data) {
@@ -212,7 +228,7 @@ bool spore_island_system_definite(void *data) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    bool tells = takes_whole(system, body) && spore_island_system_assembles(system, body);
+    bool tells = balances(system, body) && takes_whole(system, body) && spore_island_system_assembles(system, body);
     if (tells && !body->preconditioner.factor_ready) return false;
   }
   return true;
@@ -256,6 +272,7 @@ bool spore_island_system_reuse(void *data, const double *q, const double *v, dou
   system->contact_couplings = system->spring_couplings = system->dragging = 0;
   if (has_factors_alone(system)) return true;
   linearise_terms(system, q, v, c, c2, true);
+  spore_island_system_load_levers(system, c2);
   make_preconditioner(system, q);
   return true;
 }
@@ -310,6 +327,8 @@ void spore_island_system_multiply(void *data, const double *x, double *y) {
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) {
       spore_island_system_weigh(system, body, x + site->v, y + site->v);
+      if (body->preconditioner.rows)
+        spore_blocks_add(body->preconditioner.turning, 1, 1, x + site->v + 3, y + site->v + 3);
       continue;
     }
     memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
@@ -337,7 +356,8 @@ void spore_island_system_precondition(void *data, const double *r, double *z) {
   assert(r != z);
   SporeIslandSystem *system = data;
   const double *inverse = spore_island_system_precondition_blocks(system);
-  for (size_t b = 0; b < system->island->kept_count; b++) {
+  if (system->together) spore_island_system_factor_solve(system, r, z);
+  for (size_t b = 0; b < system->island->kept_count && !system->together; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (body->preconditioner.factor_ready)

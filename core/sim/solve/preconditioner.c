@@ -11,6 +11,7 @@
 #include "core/sim/solve/local_assembly.h"
 
 #define WORTH_ITERATIONS 2000 /* a factor that takes more work than this many iterations is not made */
+#define WORTH_STATIC 12500    /* the same of a static body */
 #define GAIN 1.25             /* cost of the present choice over the other, above which it changes */
 #define PATIENCE 4            /* steps over which costs are compared */
 #define PATIENCE_MAXIMUM 256
@@ -99,32 +100,39 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
       body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] ==
           body->preconditioner.matrix.block_count)
     return true;
+  double worth = spore_body_is_static(body) ? WORTH_STATIC : WORTH_ITERATIONS;
   if (!body->held.flags) body->held.flags = SPORE_NEW_ARRAY(uint8_t, body->preconditioner.matrix.block_room);
   if (!body->held.flags ||
       !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
                                    layout_of(world->solver.linear),
-                                   WORTH_ITERATIONS / FACTOR_WEIGHT * spore_body_gradient_work(body), world->cancel))
+                                   worth / FACTOR_WEIGHT * spore_body_gradient_work(body), world->cancel))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   for (size_t i = 0; i < body->held.count; i++) body->held.flags[body->held.blocks[i]] = 1;
   return true;
 }
 
 bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
-  for (size_t b = 0; b < world->body_count; b++)
+  for (size_t b = 0; b < world->body_count; b++) {
     if (!spore_body_create_factor(world, &world->bodies[b], error)) return false;
+    if (!spore_body_create_rows(&world->bodies[b]))
+      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+  }
   return true;
 }
 
-/* A banded factor takes less work than the matrix itself, so it is always chosen. */
-static bool is_banded(const SporeBody *body) { return body->preconditioner.factor.band.block_count > 0; }
+/* A banded factor takes less work than the matrix itself, so it is always chosen. So is any factor of a static body:
+ * its steps are as long as steps can be. */
+static bool wants_factor(const SporeBody *body) {
+  return body->preconditioner.factor.band.block_count > 0 ||
+         (body->preconditioner.factor.block_count > 0 && spore_body_is_static(body));
+}
 
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   body->preconditioner.choice = (SporeFactorChoice){.patience = PATIENCE, .keep = KEEP, .trial = PATIENCE};
   bool by_hand = world->solver.linear == SPORE_LINEAR_CHOLESKY || world->solver.linear == SPORE_LINEAR_BANDED;
   bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
   body->preconditioner.choice.factorised =
-      (by_hand && body->preconditioner.factor.block_count > 0) ||
-      (automatic && (is_banded(body) || (spore_body_is_static(body) && body->preconditioner.factor.block_count > 0)));
+      (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && wants_factor(body));
   body->preconditioner.factor_ready = false;
 }
 
@@ -223,8 +231,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   SporeFactorChoice *choice = &body->preconditioner.choice;
   uint32_t factors = choice->factors;
   choice->factors = 0;
-  if (spore_body_is_static(body) && choice->factorised) return;
-  if (alone && choice->factorised && is_banded(body)) return;
+  if (choice->factorised && (spore_body_is_static(body) || (alone && wants_factor(body)))) return;
   if (choice->needed) {
     /* A body that did not converge without a factor may converge now. If not, that step is taken again. */
     if (++choice->steps < TRIAL_STEPS) return;
@@ -254,11 +261,31 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   }
 }
 
+/* The same for a small island of rigid bodies: whether its matrix is factorised as a whole. Contacts that do not
+ * converge are no sign that this would help: they come and go. */
+static bool choose_together(const SporeIslandSystem *system) {
+  const SporeStepResult *result = &system->island->result;
+  bool hard = result->unsolved > 0 || (!result->converged && system->island->contact_count == 0), again = false;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeFactorChoice *choice = &spore_island_system_body(system, b, &site)->preconditioner.choice;
+    if (hard && !choice->needed) {
+      choice->needed = true;
+      choice->steps = 0;
+      again |= !result->converged;
+    } else if (choice->needed && ++choice->steps >= TRIAL_STEPS) {
+      choice->needed = false;
+    }
+  }
+  return again;
+}
+
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
   assert(island->kept_count <= island->body_count);
   assert(island->body_start + island->body_count <= world->body_count);
   const SporeStepResult *result = &island->result;
   SporeIslandSystem system = {.world = world, .island = island};
+  if (spore_island_system_is_small(&system)) return choose_together(&system);
   bool again = false, alone = !spore_island_system_couples(&system);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];

@@ -33,7 +33,8 @@ typedef enum SporeStart { SPORE_START_NONE, SPORE_START_NEW, SPORE_START_KEPT } 
  * this choice: see preconditioner.c. */
 typedef struct SporeFactorChoice {
   bool factorised; /* the present choice */
-  bool needed;     /* conjugate gradients alone did not solve a step: a factor is needed */
+  bool needed;     /* conjugate gradients alone did not solve a step: a factor is needed; of a rigid body: of its small
+                      island */
   bool stuck;      /* Newton's method with conjugate gradients did not solve a step: the exact tangent is needed,
                       and only a factor can use it */
   uint32_t votes, patience; /* steps in which work was counted; number of such steps before the choice may change */
@@ -61,6 +62,9 @@ typedef struct SporePreconditioner {
   bool factor_ready;          /* the factor may be used: it belongs to the present matrix, or is kept */
   bool factor_alone;          /* the factor was made without couplings */
   bool factor_kept;           /* among couplings: the factor also serves later matrices with the same c and c2 */
+  double *rows;               /* of a rigid body: its rows of the factor of a small island; NULL: of another body */
+  uint32_t first_row;         /* first entry of these rows that is not zero */
+  double turning[9];          /* of a rigid body: what the load of links adds to A against turning */
   double rounding_soft, rounding_stiff; /* squares, of the last preconditioner: see spore_island_rounding */
   SporeFactorChoice choice;
 } SporePreconditioner;
@@ -216,6 +220,12 @@ double spore_body_gradient_work(const SporeBody *body);
 /* Chooses anew how each body of the island is preconditioned, from the work of the step just taken (island->result).
  * True: the step failed for lack of a factor, and should be taken again. */
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
+
+/* island_factor.c */
+/* The most bodies of an island of rigid bodies whose matrix is factorised as a whole. */
+#define SPORE_SMALL_ISLAND 20
+/* Room for the body's part of such a factor, if the body is rigid. False: no memory. */
+bool spore_body_create_rows(SporeBody *body);
 
 /* integrate.c */
 /* Stage: integrates the islands, each on its own and on any thread. */
