@@ -51,6 +51,49 @@ static void report_choice(SporeCli *cli, const SporeDocument *document, const ch
   spore_cli_close(cli);
 }
 
+#define LEAST_DAMPING 0.001 /* a second: less is not worth a sentence */
+
+static void remark_coupled(GString *remarks, const char *body, const SporeMethod *method, gboolean particles) {
+  const char *implicit = spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER];
+  if (method->coupled == SPORE_COUPLED_CONTACTS && particles)
+    g_string_append_printf(remarks, _("%s: contacts that its step does not resolve are implicit\n"), body);
+  else if (method->coupled == SPORE_COUPLED_CONTACTS)
+    g_string_append_printf(remarks, _("%s: %s moves it in steps that do not resolve its contacts\n"), body, implicit);
+  else if (method->coupled == SPORE_COUPLED_LINKS && particles)
+    g_string_append_printf(remarks, _("%s: its step does not resolve its links, which are implicit\n"), body);
+  else if (method->coupled == SPORE_COUPLED_LINKS && method->resolving > 0)
+    g_string_append_printf(remarks,
+                           _("%s: %s moves it, since its step does not resolve its links; %zu substeps would\n"), body,
+                           implicit, method->resolving);
+  else if (method->coupled == SPORE_COUPLED_LINKS)
+    g_string_append_printf(remarks, _("%s: %s moves it, since its step does not resolve its links\n"), body, implicit);
+}
+
+static void report_damping(SporeCli *cli, const SporeWorld *world, guint body, GString *remarks) {
+  double share;
+  json_builder_set_member_name(cli->report, "damping_a_second");
+  if (!spore_world_body_damping(world, body, &share)) {
+    json_builder_add_null_value(cli->report);
+    return;
+  }
+  json_builder_add_double_value(cli->report, share);
+  if (share >= LEAST_DAMPING)
+    g_string_append_printf(remarks, _("%s: its method takes %.2g%% of the energy of its slowest swing in a second\n"),
+                           spore_world_body_name(world, body), 100 * share);
+}
+
+/* Members of a body, and the sentences that go with them. */
+static void report_remarks(SporeCli *cli, const SporeWorld *world, guint body, const SporeMethod *method,
+                           GString *remarks) {
+  json_builder_set_member_name(cli->report, "implicit_by");
+  if (method->coupled == SPORE_COUPLED_NEVER) json_builder_add_null_value(cli->report);
+  else json_builder_add_string_value(cli->report, method->coupled == SPORE_COUPLED_LINKS ? "links" : "contacts");
+  spore_cli_count(cli, "resolving_substeps", (gint64)method->resolving);
+  remark_coupled(remarks, spore_world_body_name(world, body), method,
+                 spore_world_body_model(world, body)->type->rates != NULL);
+  report_damping(cli, world, body, remarks);
+}
+
 static void report_method(SporeCli *cli, const SporeDocument *document, const char *body, int width,
                           const SporeMethod *method) {
   g_autoptr(GString) row = g_string_new(NULL);
@@ -64,13 +107,13 @@ static void report_method(SporeCli *cli, const SporeDocument *document, const ch
   spore_cli_close(cli);
   report_choice(cli, document, "nonlinear", &method->nonlinear, row);
   report_choice(cli, document, "linear", &method->linear, row);
-  spore_cli_close(cli);
   spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
 
 static void report_bodies(SporeCli *cli, const SporeDocument *document, const SporeWorld *world) {
   SporeMethod method;
   gboolean titled = FALSE;
+  g_autoptr(GString) remarks = g_string_new(NULL);
   int width = spore_cli_body_width(world);
   spore_cli_open_array(cli, "bodies");
   for (guint body = 0; body < spore_world_body_count(world); body++) {
@@ -80,8 +123,11 @@ static void report_bodies(SporeCli *cli, const SporeDocument *document, const Sp
                     _("nonlinear"), _("linear"));
     titled = TRUE;
     report_method(cli, document, spore_world_body_name(world, body), width, &method);
+    report_remarks(cli, world, body, &method, remarks);
+    spore_cli_close(cli);
   }
   spore_cli_close_array(cli);
+  spore_cli_say(cli, "%s", remarks->str);
 }
 
 static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
@@ -120,7 +166,11 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
                     "measured_us, the median")},
       {"left_out", N_("what the scene does not need: what, reason")},
       {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
-                    "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved")},
+                    "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved. Of one "
+                    "with an explicit integrator implicit_by: links or contacts that its step does not resolve, so "
+                    "that implicit_euler moves it then; null: nothing. resolving_substeps: would resolve the links; 0: "
+                    "none would, or none need to. damping_a_second: the share of its energy that the method takes from "
+                    "its slowest swing; null: not known")},
       {"libraries", N_("that the program uses")},
       {"mappings",
        N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "

@@ -41,8 +41,7 @@ void spore_world_free(SporeWorld *world) {
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->method.integrator = body->method.chosen;
-  body->reported.deep = body->reported.soft = body->altered = false;
-  body->collision.soft_since = body->collision.soft_last = 0;
+  body->reported.deep = body->reported.error = body->altered = false;
   body->sleep.steps = 0;
   spore_body_thaw(body);
   body->reported.notice = false;

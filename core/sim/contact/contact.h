@@ -55,8 +55,6 @@ typedef struct SporeCollisionUnit {
   size_t start;          /* index of the body's first sphere among all spheres */
   SporeDepthField field; /* empty: the body's spheres are felt one by one */
   double *whole_weight;  /* weights of `spheres` before anything was cut, for a reset; NULL: nothing can cut the body */
-  uint64_t soft_since,
-      soft_last; /* numbers of steps, from 1: first and last step in a row with a soft contact, see soft_contact.c */
 } SporeCollisionUnit;
 
 /* contacts.c */
@@ -84,8 +82,5 @@ bool spore_friction_reserve(SporeWorld *world, size_t old_contacts, size_t conta
 void spore_world_restore_friction(SporeWorld *world);
 /* Stage: keeps the tangential springs at the end of the step, for the next step. */
 void spore_world_keep_friction(SporeWorld *world);
-
-/* soft_contact.c. Stage: reports contacts at rest that are too soft since the step is too long. */
-void spore_world_watch_contacts(SporeWorld *world);
 
 #endif

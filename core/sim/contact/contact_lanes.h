@@ -32,23 +32,22 @@ typedef struct SporeLaneEnd {
 /* Consecutive contacts of an island. Lanes behind the last contact have no force. */
 typedef struct SporeContactLanes {
   SporeLanesKind kind;
-  bool rubs, softened; /* whether some lane has friction, is softened */
+  bool rubs; /* some lane has friction */
   uint32_t count;
   SporeLaneEnd a, b;
   SporeLaneVector normal, driven; /* driven: velocity of prescribed ends, a less b, m/s */
   int64_t rolls[SPORE_LANES];     /* -1, or 0: see spore_contact_term_rolls */
   double depth[SPORE_LANES];      /* that presses, m */
   double stiffness[SPORE_LANES], damping[SPORE_LANES], damping_depth[SPORE_LANES], friction[SPORE_LANES];
-  double ahead[SPORE_LANES], faster[SPORE_LANES]; /* t, and w h, of the softening */
   SporeLaneVector stretch;
   SporeLaneVector force;
-  double pressing[SPORE_LANES], yield[SPORE_LANES];
+  double pressing[SPORE_LANES];
 } SporeContactLanes;
 
 /* Number of SporeContactLanes that so many contacts take. */
 static inline size_t spore_lanes_for(size_t contacts) { return (contacts + SPORE_LANES - 1) / SPORE_LANES; }
 
-/* Force, pressing and yield, and the levers of frames. `at`: q, or the frames; elapsed_s: since the step began. */
+/* Force and pressing, and the levers of frames. `at`: q, or the frames; elapsed_s: since the step began. */
 SPORE_DECLARE_KERNEL(void, spore_contact_lanes_force, SporeContactLanes *lanes, const double *at, const double *v,
                      double elapsed_s);
 

@@ -35,6 +35,8 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_RESIDUAL, /* figure: the relative residual */
   SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
+  SPORE_UNSOLVED_ENERGY,   /* energy out of nothing, as a share of the energy at work */
+  SPORE_UNSOLVED_HALVES,   /* how far a step and its halves are apart, as a share of the speed */
   SPORE_UNSOLVED_CAUSES
 } SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */
@@ -68,7 +70,6 @@ typedef struct SporeState {
 typedef enum SporeTrouble {
   SPORE_TROUBLE_NONE,
   SPORE_TROUBLE_NOT_CONVERGED,
-  SPORE_TROUBLE_ENERGY,
   SPORE_TROUBLE_SPEED,
   SPORE_TROUBLE_NOT_FINITE
 } SporeTrouble;
@@ -76,7 +77,7 @@ typedef enum SporeTrouble {
 typedef struct SporeReported {
   SporeTrouble trouble; /* the worst so far */
   bool deep;            /* the body lies too deep in another body */
-  bool soft;            /* the body's contacts hold too little */
+  bool error;           /* the body's explicit step is too large for its motion */
   bool torn;            /* the body tears */
   bool notice;          /* what the body's model had to correct */
 } SporeReported;

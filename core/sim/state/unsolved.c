@@ -17,6 +17,11 @@ static const struct {
                               N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
     [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
                                N_("reset, or change its parameters"), NULL},
+    [SPORE_UNSOLVED_ENERGY] = {N_("explicit steps made more than a hundredth of its energy out of nothing"),
+                               N_("take a smaller time_step, or choose implicit_euler for it"), ""},
+    [SPORE_UNSOLVED_HALVES] =
+        {N_("an explicit step and two of half its size are more than a quarter of its speed apart"),
+         N_("take a smaller time_step or more substeps"), ""},
 };
 _Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
 
