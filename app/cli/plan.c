@@ -65,6 +65,49 @@ static void say_work(gpointer data, const char *sentence, const char *remedy) {
   spore_cli_say(data, "%s; %s\n", sentence, remedy);
 }
 
+#define LEAST_DAMPING 0.001 /* a second: less is not worth a sentence */
+
+static void remark_coupled(GString *remarks, const char *body, const SporeMethod *method, gboolean particles) {
+  const char *implicit = spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER];
+  if (method->coupled == SPORE_COUPLED_CONTACTS && particles)
+    g_string_append_printf(remarks, _("%s: contacts that its step does not resolve are implicit\n"), body);
+  else if (method->coupled == SPORE_COUPLED_CONTACTS)
+    g_string_append_printf(remarks, _("%s: %s moves it in steps that do not resolve its contacts\n"), body, implicit);
+  else if (method->coupled == SPORE_COUPLED_LINKS && particles)
+    g_string_append_printf(remarks, _("%s: its step does not resolve its links, which are implicit\n"), body);
+  else if (method->coupled == SPORE_COUPLED_LINKS && method->resolving > 0)
+    g_string_append_printf(remarks,
+                           _("%s: %s moves it, since its step does not resolve its links; %zu substeps would\n"), body,
+                           implicit, method->resolving);
+  else if (method->coupled == SPORE_COUPLED_LINKS)
+    g_string_append_printf(remarks, _("%s: %s moves it, since its step does not resolve its links\n"), body, implicit);
+}
+
+static void report_damping(SporeCli *cli, const SporeWorld *world, guint body, GString *remarks) {
+  double share;
+  json_builder_set_member_name(cli->report, "damping_a_second");
+  if (!spore_world_body_damping(world, body, &share)) {
+    json_builder_add_null_value(cli->report);
+    return;
+  }
+  json_builder_add_double_value(cli->report, share);
+  if (share >= LEAST_DAMPING)
+    g_string_append_printf(remarks, _("%s: its method takes %.2g%% of the energy of its slowest swing in a second\n"),
+                           spore_world_body_name(world, body), 100 * share);
+}
+
+/* Members of a body, and the sentences that go with them. */
+static void report_remarks(SporeCli *cli, const SporeWorld *world, guint body, const SporeMethod *method,
+                           GString *remarks) {
+  json_builder_set_member_name(cli->report, "implicit_by");
+  if (method->coupled == SPORE_COUPLED_NEVER) json_builder_add_null_value(cli->report);
+  else json_builder_add_string_value(cli->report, method->coupled == SPORE_COUPLED_LINKS ? "links" : "contacts");
+  spore_cli_count(cli, "resolving_substeps", (gint64)method->resolving);
+  remark_coupled(remarks, spore_world_body_name(world, body), method,
+                 spore_world_body_model(world, body)->type->rates != NULL);
+  report_damping(cli, world, body, remarks);
+}
+
 static void report_method(SporeCli *cli, const SporeDocument *document, const SporeWorld *world, guint index, int width,
                           const SporeMethod *method) {
   const char *body = spore_world_body_name(world, index);
@@ -80,7 +123,6 @@ static void report_method(SporeCli *cli, const SporeDocument *document, const Sp
   report_choice(cli, document, "nonlinear", &method->nonlinear, row);
   report_choice(cli, document, "linear", &method->linear, row);
   report_work(cli, world, index);
-  spore_cli_close(cli);
   spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
 
@@ -104,6 +146,7 @@ static void report_branches(SporeCli *cli, const SporeWorld *world) {
 static void report_bodies(SporeCli *cli, const SporeDocument *document, const SporeWorld *world) {
   SporeMethod method;
   gboolean titled = FALSE;
+  g_autoptr(GString) remarks = g_string_new(NULL);
   int width = spore_cli_body_width(world);
   spore_cli_open_array(cli, "bodies");
   for (guint body = 0; body < spore_world_body_count(world); body++) {
@@ -113,9 +156,12 @@ static void report_bodies(SporeCli *cli, const SporeDocument *document, const Sp
                     _("nonlinear"), _("linear"));
     titled = TRUE;
     report_method(cli, document, world, body, width, &method);
+    report_remarks(cli, world, body, &method, remarks);
+    spore_cli_close(cli);
   }
   for (guint body = 0; body < spore_world_body_count(world); body++) spore_body_say_work(world, body, say_work, cli);
   spore_cli_close_array(cli);
+  spore_cli_say(cli, "%s", remarks->str);
 }
 
 static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
@@ -158,7 +204,11 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
        N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
           "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved; where its steps "
           "are implicit also about how long it takes on one core, by counts: make_s, "
-          "factor_s (each time that its matrix is factorised; 0: never), step_s (at least)")},
+          "factor_s (each time that its matrix is factorised; 0: never), step_s (at least). Of one "
+          "with an explicit integrator implicit_by: links or contacts that its step does not resolve, so "
+          "that implicit_euler moves it then; null: nothing. resolving_substeps: would resolve the links; 0: "
+          "none would, or none need to. damping_a_second: the share of its energy that the method takes from "
+          "its slowest swing; null: not known")},
       {"branches",
        N_("names of held bodies by static, which may have several balances: the one reached by following the load "
           "from the state before is taken")},

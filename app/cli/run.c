@@ -163,12 +163,11 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"lines",
        N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "
           "start), points (at the end), peak (at most) and reserve (that there may be), inserted and removed")},
-      {"monitor",
-       N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
-          "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
-          "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "
-          "hands), broken_links, "
-          "lost_holds (that tore away from jaws), torn_springs (of nets)")},
+      {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
+                     "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
+                     "deep_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "
+                     "hands), broken_links, "
+                     "lost_holds (that tore away from jaws), torn_springs (of nets)")},
       {"monitor.frozen", N_("names of bodies that could not be computed")},
       {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
       {"monitor.unsolved",

@@ -96,7 +96,6 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                 {"energy", monitor->energy},
                 {"not_converged", monitor->not_converged},
                 {"deep_contacts", monitor->deep_contacts},
-                {"soft_contacts", monitor->soft_contacts},
                 {"over_budget", monitor->over_budget},
                 {"held_inputs", monitor->held_inputs},
                 {"shortened_forces", monitor->shortened_forces},

@@ -3,19 +3,6 @@
 
 #include "core/constraint/term_ends.h"
 
-/* (I + w jacobian)^-1 force, jacobian = h D + h t K: symmetric and at least I, so the adjugate does. */
-static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, SporeVec3 force) {
-  double w = softening->inverse_mass;
-  double xx = 1 + w * jacobian.m[0], yy = 1 + w * jacobian.m[4], zz = 1 + w * jacobian.m[8];
-  double xy = w * jacobian.m[1], xz = w * jacobian.m[2], yz = w * jacobian.m[5];
-  SporeVec3 row_x = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy};
-  SporeVec3 row_y = {row_x.y, xx * zz - xz * xz, xy * xz - xx * yz};
-  SporeVec3 row_z = {row_x.z, row_y.z, xx * yy - xy * xy};
-  double scale = 1 / (xx * row_x.x + xy * row_x.y + xz * row_x.z);
-  return (SporeVec3){scale * spore_vec3_dot(row_x, force), scale * spore_vec3_dot(row_y, force),
-                     scale * spore_vec3_dot(row_z, force)};
-}
-
 /* Whether the end slides along a path that moves. A path that physics does not move is a line during a step. */
 INLINE bool runs(const SporeSpringTerm *term) { return term->curve && !term->b.prescribed; }
 
@@ -41,9 +28,8 @@ static void run_along(SporeSpringTerm *term, const SporeSite *sites, const doubl
   if (term->law.friction > 0) term->slid = joint_length(term->curve, local, place.parameter);
 }
 
-/* Positions of the ends, now or after `ahead`, and how far the spring of friction has slid by then. */
-static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
-                        SporeVec3 *b) {
+/* Positions of the ends, and how far the spring of friction has slid. */
+static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, SporeVec3 *a, SporeVec3 *b) {
   assert(term->law.rest_length >= 0 && term->law.friction >= 0);
   const SporeVec3 none = {0, 0, 0};
   *a = locate(&term->a, none, sites, q);
@@ -54,12 +40,6 @@ static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const dou
    * that it does not turn the two together. */
   if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
     term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
-  if (!(term->softening.ahead > 0)) return;
-  SporeVec3 ahead_a = spore_vec3_scale(term->softening.ahead, gather(&term->a, sites, v));
-  SporeVec3 ahead_b = spore_vec3_scale(term->softening.ahead, gather(&term->b, sites, v));
-  *a = spore_vec3_add(*a, ahead_a);
-  *b = spore_vec3_add(*b, ahead_b);
-  term->slid += spore_vec3_dot(term->law.free, spore_vec3_sub(ahead_a, ahead_b));
 }
 
 /* Force of a stop, where end a is beyond an end of the path that stops it. */
@@ -101,31 +81,24 @@ static void add_friction(SporeSpringTerm *term, SporeVec3 velocity_a, SporeVec3 
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f) {
   SporeVec3 a, b;
-  spring_ends(term, sites, q, v, &a, &b);
+  spring_ends(term, sites, q, &a, &b);
   SporeVec3 velocity_a = velocity(&term->a, sites, v), velocity_b = velocity(&term->b, sites, v);
   term->force = spore_spring_force(&term->law, a, b, velocity_a, velocity_b);
   double stop = stop_of(term, a, b, velocity_a, velocity_b).force;
   if (term->law.friction > 0) add_friction(term, velocity_a, velocity_b);
   if (stop > 0) term->force = spore_vec3_add_scaled(term->force, -stop * term->curve->end, term->law.free);
-  const SporeSoftening *softening = &term->softening;
-  if (softening->inverse_mass > 0) {
-    SporeMat3 jacobian =
-        spring_jacobian(term, a, b, velocity_a, velocity_b, softening->h, softening->h * softening->ahead);
-    term->force = soften(softening, jacobian, term->force);
-  }
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
 void spore_spring_term_hold(SporeSpringTerm *term) {
   assert(term->a.prescribed && term->b.prescribed);
-  term->softening = (SporeSoftening){0, 0, 0};
   spore_spring_term_force(term, NULL, NULL, NULL, NULL);
 }
 
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2) {
   SporeVec3 a, b;
-  spring_ends(term, sites, q, v, &a, &b);
+  spring_ends(term, sites, q, &a, &b);
   return spring_jacobian(term, a, b, velocity(&term->a, sites, v), velocity(&term->b, sites, v), c, c2);
 }
 

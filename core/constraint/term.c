@@ -1,13 +1,7 @@
-/* Contact terms: depth, friction, softening and force of a contact between two ends. */
+/* Contact terms: depth, friction and force of a contact between two ends. */
 #include <assert.h>
 
 #include "core/constraint/term_ends.h"
-
-SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
-  assert(h > 0 && inverse_mass >= 0 && stiffness >= 0);
-  double stiff = 2 * h * h * stiffness * inverse_mass;
-  return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
-}
 
 /* Relative velocity of the ends that physics moves. A prescribed end is at its final place already. */
 INLINE SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
@@ -72,17 +66,17 @@ INLINE void meet_at(SporeEnd *end, SporeVec3 point, const SporeSite *sites, cons
 SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   if (!(term->law.friction > 0) || spore_contact_term_rolls(term)) return (SporeVec3){0, 0, 0};
   Motion motion = motion_at(term, sites, q);
-  return spore_contact_slip(&term->law, stretch_after(term, &motion), term->yield);
+  return spore_contact_slip(&term->law, stretch_after(term, &motion), term->pressing);
 }
 
-/* State of the contact at q and v; a little ahead in time where the term is softened. */
+/* State of the contact at q and v. */
 INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                        double elapsed_s) {
   SporeVec3 a = locate(&term->a, term->arm_a, sites, q), b = locate(&term->b, term->arm_b, sites, q);
   if (term->field_a) meet_at(&term->a, spore_vec3_add(b, term->arm_b), sites, q);
   if (term->field_b) meet_at(&term->b, spore_vec3_add(a, term->arm_a), sites, q);
   Motion motion = motion_of(term, a, b, sites, q);
-  SporeContactState state = {term->normal, depth_after(term, &motion) - term->slack, term->overlap};
+  SporeContactState state = {term->normal, depth_after(term, &motion), term->overlap};
   state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
   if (spore_contact_term_rolls(term)) {
     SporeVec3 slip = across(term->normal, spore_vec3_scale(elapsed_s, state.velocity));
@@ -90,70 +84,7 @@ INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
   } else if (term->law.friction > 0) {
     state.stretch = stretch_after(term, &motion);
   }
-  if (term->softening.ahead > 0) {
-    SporeVec3 ahead = spore_vec3_scale(term->softening.ahead, own_motion(&term->a, &term->b, sites, v));
-    state.depth -= spore_vec3_dot(term->normal, ahead);
-    state.stretch = spore_vec3_add(state.stretch, across(term->normal, ahead));
-  }
   return state;
-}
-
-/* Residual of the implicit normal force N': the law at the gap speed and depth after a step of the two ends alone under
- * N', less N'. */
-static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double overlap,
-                         double gap_speed, double pressing) {
-  double change = faster * pressing;
-  return spore_contact_normal(law, depth - ahead * change, overlap, gap_speed + change).force - pressing;
-}
-
-/* The residual falls with N', so false position (the Illinois variant) converges. */
-double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
-                                       double overlap, double gap_speed, double most) {
-  assert(ahead >= 0 && faster >= 0);
-  double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, overlap, gap_speed, low);
-  double below = unbalanced(law, ahead, faster, depth, overlap, gap_speed, high);
-  if (!(above > 0)) return low;
-  if (!(below < 0)) return high;
-  for (int i = 0, side = 0; i < 40 && high - low > 1e-9 * most; i++) {
-    double middle = low + (high - low) * above / (above - below);
-    double value = unbalanced(law, ahead, faster, depth, overlap, gap_speed, middle);
-    if (value > 0) {
-      low = middle, above = value;
-      if (side == 1) below *= 0.5;
-      side = 1;
-    } else {
-      high = middle, below = value;
-      if (value == 0) return middle;
-      if (side == -1) above *= 0.5;
-      side = -1;
-    }
-  }
-  return low;
-}
-
-/* Softens the normal force by the slopes of the law. Where that would throw the ends of an overlap apart so fast that
- * the law is not linear, by the law itself. The spring of friction is softened on its own, and cut by the softened
- * normal force. */
-static void soften_contact(SporeContactTerm *term, const SporeContactState *state) {
-  const SporeSoftening *softening = &term->softening;
-  double w = softening->inverse_mass, h = softening->h;
-  SporeVec3 n = term->normal;
-  if (term->pressing <= 0) return;
-  double gap_speed = spore_vec3_dot(n, state->velocity);
-  SporeContactNormal law = spore_contact_normal(&term->law, state->depth, state->overlap, gap_speed);
-  double pressing = term->pressing / (1 + w * h * (law.damping + softening->ahead * law.stiffness));
-  if (state->overlap > 0 && gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
-    pressing = spore_contact_implicit_pressing(&term->law, softening->ahead, w * h, state->depth, state->overlap,
-                                               gap_speed, pressing);
-  term->pressing = term->yield = pressing;
-  term->force = spore_vec3_scale(pressing, n);
-  if (!(term->law.friction > 0)) return;
-  double damping;
-  SporeVec3 hold = spore_contact_hold(&term->law, state, &damping);
-  double softer = 1 + w * h * (damping + softening->ahead * term->law.stiffness);
-  hold = spore_contact_cut(&term->law, spore_vec3_scale(1 / softer, hold), pressing);
-  term->force = spore_vec3_sub(term->force, hold);
-  term->yield = softer * pressing;
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
@@ -161,14 +92,12 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
   assert((term->a.prescribed && term->b.prescribed) || (sites && q && v && f));
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   term->force = spore_contact_force(&term->law, &state);
-  term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
-  if (term->softening.inverse_mass > 0) soften_contact(term, &state);
+  term->pressing = spore_vec3_dot(term->normal, term->force);
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
 void spore_contact_term_hold(SporeContactTerm *term) {
   assert(term->a.prescribed && term->b.prescribed);
-  term->softening = (SporeSoftening){0, 0, 0};
   spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
 }
 

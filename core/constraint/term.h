@@ -25,41 +25,21 @@ typedef struct SporeEnd {
                          where the force acts, at the last evaluation */
 } SporeEnd;
 
-/* How a term is kept from upsetting an explicit step of h seconds: its force is evaluated a little ahead, where the
- * ends get to in t seconds, and f becomes (I + w (h D + h t K))^-1 f, as if the two ends alone were stepped implicitly.
- *   w = sum over both ends of n/m, n the number of terms that share a block;  t = h 2s / (1 + 2s), s = h^2 k w
- * Where the step resolves a term (s << 1) nothing changes; however stiff it is, all terms together add at most 1 to the
- * 4 that symplectic Euler bears of h^2 times an eigenvalue; rest is where it is without this, and the ends get opposite
- * forces. w = 0: the term as it is. */
-typedef struct SporeSoftening {
-  double h, ahead;     /* h, t, s */
-  double inverse_mass; /* w, 1/kg */
-} SporeSoftening;
-
-SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
-/* Normal force N, 0..most, of one implicit step of the two ends alone from a depth (m) and a gap speed; ahead: t, and
- * faster: w h, of the softening. */
-double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
-                                       double overlap, double gap_speed, double most);
-
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */
   uint32_t sphere_a, sphere_b;
   uint32_t pair_a, pair_b;            /* what friction remembers the pair by */
   SporeVec3 normal;                   /* from b to a */
   double depth;                       /* m, when the step began */
-  double slack;                       /* of the depth, m: in this step it presses nothing */
   double overlap;                     /* of the depth, m: the part that motion has not made, see response.h */
   SporeVec3 arm_a, arm_b;             /* from the centres to the contact point when the step began, m */
   SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of rigid bodies */
   bool field_a, field_b;              /* the body is felt as one: depth follows its contact point, not the centre */
   SporeVec3 stretch;                  /* of friction's spring, when the step began, m */
   SporeContactLaw law;
-  SporeSoftening softening;
   SporeVec3 drag;  /* at the last linearisation: see spore_contact_jacobian */
   SporeVec3 force; /* on a, at the last evaluation, N */
   double pressing; /* its normal part; infinite before the first */
-  double yield; /* the longest stretch that this holds belongs to k stretch = mu yield; pressing, but where softened */
 } SporeContactTerm;
 
 /* What end b of a spring runs along, instead of staying where it is on its body: the place nearest to end a, found anew
@@ -93,11 +73,10 @@ typedef struct SporeSpringTerm {
   SporeEnd a, b;
   SporeSpring law;
   SporeCurveJoint *curve; /* NULL: none */
-  SporeSoftening softening;
-  SporeVec3 force; /* on a, at the last evaluation, N */
-  double stretch;  /* of friction's spring, when the step began, m */
-  double slid;     /* since then, at the last evaluation, m */
-  double held;     /* force across the free direction, at the last evaluation, N */
+  SporeVec3 force;        /* on a, at the last evaluation, N */
+  double stretch;         /* of friction's spring, when the step began, m */
+  double slid;            /* since then, at the last evaluation, m */
+  double held;            /* force across the free direction, at the last evaluation, N */
 } SporeSpringTerm;
 
 /* Below, q and v are the vectors that `sites` (by body) belongs to. */

@@ -35,9 +35,6 @@ typedef struct SporeDynamics {
   /* The same in two parts: f = the bodies' own forces, and f += those of contacts and links. */
   void (*body_force)(void *data, const double *q, const double *v, double *f);
   void (*term_force)(void *data, const double *q, const double *v, double *f);
-  /* Makes contacts and links safe for explicit steps of h seconds however stiff they are; `resolved`: but those that
-   * such a step resolves well are left exactly as they are. False: there are none. */
-  bool (*soften)(void *data, double h, bool resolved);
   /* What is prescribed (tools) is taken to be where it will be `elapsed_s` after the start of this step; when the step
    * begins that is its end. */
   void (*set_time)(void *data, double elapsed_s);

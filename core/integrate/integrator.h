@@ -47,8 +47,9 @@ typedef struct SporeIntegrator {
   bool remembers;    /* needs its SporeHistory kept */
   SporeDamping damping;
   /* Explicit: modes with w^2 h^2 + stable_damping d h <= stable_square stay bounded; w^2 and d are eigenvalues of
-   * M^-1 K and M^-1 D. 1 of it is for contacts and links: see SporeSoftening. 0: not of this form. */
+   * M^-1 K and M^-1 D. 1 of it is for contacts and links. 0: not of this form. */
   double stable_square, stable_damping;
+  double shift; /* explicit: a constant acceleration a moves q by shift h^2 a in a step, beside h v0 */
   /* Doubles of scratch a block. */
   size_t scratch;
   /* q1, v1 from q0, v0 (not aliased) after h seconds. Whatever happens q1 and v1 are written; they may not be finite.

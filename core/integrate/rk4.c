@@ -39,7 +39,6 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   double *q = scratch, *q2 = q + 2 * n, *k1 = q2 + 2 * n, *k2 = k1 + n, *k3 = k2 + n, *k4 = k3 + n;
   double *v = k4 + n, *v2 = v + n, *free = v2 + n, *force = free + n, *change = force + n;
   Stage stage = {dynamics, n, force, change};
-  dynamics->soften(data, h, true);
   evaluate(&stage, 0, h, q0, v0, k1);
 
   dynamics->drift(data, q0, v0, 0.5 * h, q2, free);
@@ -72,6 +71,7 @@ const SporeIntegrator spore_rk4 = {
     .doc = N_("Fourth order, four force evaluations a step: the most exact for what is smooth and not stiff."),
     .stable_square = 8,
     .stable_damping = 3,
+    .shift = 0.5,
     .scratch = 3 * 13,
     .step = step,
 };

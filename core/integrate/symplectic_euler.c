@@ -5,23 +5,16 @@
 #include "core/base/text.h"
 #include "core/integrate/integrator.h"
 
-/* v1 = v0 + h M^-1 f(q0, v0); q1 = q0 + h v1. Contacts and links push on the velocity that the bodies' own forces
- * lead to. */
+/* v1 = v0 + h M^-1 f(q0, v0); q1 = q0 + h v1. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
   assert(h > 0 && q0 != q1 && v0 != v1);
   void *data = dynamics->data;
   size_t n = 3 * dynamics->block_count;
   double *force = scratch, *kicked = scratch + n;
-  dynamics->body_force(data, q0, v0, force);
+  dynamics->force(data, q0, v0, force);
   memcpy(kicked, v0, n * sizeof *v0);
   dynamics->kick(data, force, h, kicked);
-  if (dynamics->soften(data, h, false)) {
-    memset(force, 0, n * sizeof *force);
-    dynamics->set_time(data, h);
-    dynamics->term_force(data, q0, kicked, force);
-    dynamics->kick(data, force, h, kicked);
-  }
   dynamics->drift(data, q0, kicked, h, q1, v1);
   return (SporeStepResult){.converged = true, .force_evaluations = 1};
 }
@@ -32,6 +25,7 @@ const SporeIntegrator spore_symplectic_euler = {
         N_("First order, one force evaluation a step; conserves energy well, but needs small steps where it is stiff."),
     .stable_square = 4,
     .stable_damping = 2,
+    .shift = 1,
     .scratch = 3 * 2,
     .step = step,
 };

@@ -21,11 +21,8 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
     dynamics->body_force(data, q0, v0, force);
     result.force_evaluations++;
   }
-  bool terms = dynamics->soften(data, h, true);
-  if (terms) {
-    dynamics->set_time(data, 0);
-    dynamics->term_force(data, q0, v0, force);
-  }
+  dynamics->set_time(data, 0);
+  dynamics->term_force(data, q0, v0, force);
   memset(change, 0, n * sizeof *change);
   dynamics->kick(data, force, 0.5 * h, change);
   for (size_t i = 0; i < n; i++) half[i] = v0[i] + change[i];
@@ -35,10 +32,8 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   dynamics->body_force(data, q1, predicted, force);
   memcpy(history->a, force, n * sizeof *force);
   history->step_s = h;
-  if (terms) {
-    dynamics->set_time(data, h);
-    dynamics->term_force(data, q1, predicted, force);
-  }
+  dynamics->set_time(data, h);
+  dynamics->term_force(data, q1, predicted, force);
   dynamics->set_mass(data, q1);
   dynamics->kick(data, force, 0.5 * h, v1);
   return result;
@@ -51,6 +46,7 @@ const SporeIntegrator spore_verlet = {
     .remembers = true,
     .stable_square = 4,
     .stable_damping = 4,
+    .shift = 0.5,
     .scratch = 3 * 4,
     .step = step,
 };

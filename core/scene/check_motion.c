@@ -228,22 +228,6 @@ static void check_margin(const Start *start, guint body) {
       spore_object_name(start->bodies->pdata[body]), margin, least);
 }
 
-/* Warns of a time step that leaves contacts too soft to bear a pile of bodies. */
-static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
-  const SporeObject *bodies = spore_document_section(check->document, "bodies");
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    SporeObject *body = spore_object_child(bodies, i);
-    guint32 index = spore_simulation_body_of(simulation, body);
-    SporePileLimit limit;
-    if (index == SPORE_NO_BODY || !spore_world_pile_sinks(simulation->world, index, &limit)) continue;
-    char remedy[160];
-    spore_pile_remedy(&limit, remedy, sizeof remedy);
-    spore_check_say(check, SPORE_WARNING, body, remedy,
-                    _("\"%s\" would sink into others in a pile: the step leaves a contact %.2g%% of its stiffness"),
-                    spore_object_name(body), 100 * limit.share);
-  }
-}
-
 /* Reports what each model says that it computes badly. */
 static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
@@ -302,7 +286,6 @@ void spore_check_motion(SporeCheck *check) {
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
   if (simulation) spore_check_mapping(check, simulation);
-  if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
   if (simulation) check_work(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);

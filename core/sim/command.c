@@ -64,14 +64,12 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
     return;
   }
   world->state.gravity = gravity;
-  for (size_t b = 0; b < world->body_count; b++) {
-    world->bodies[b].history.step_s = 0;
-    world->bodies[b].watch.started = false;
-  }
+  for (size_t b = 0; b < world->body_count; b++) world->bodies[b].history.step_s = 0;
   spore_world_wake_all(world);
 }
 
 static void apply(SporeWorld *world, const SporeCommand *command) {
+  world->solve.watch.started = false;
   if (command->kind == SPORE_COMMAND_GRAVITY) {
     set_gravity(world, command->vector);
     return;

@@ -41,14 +41,6 @@ static bool has_holds(const SporeWorld *world) {
   return false;
 }
 
-static bool has_explicit(const SporeWorld *world) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_PASSIVE && !spore_integrator(body->method.chosen)->implicit) return true;
-  }
-  return false;
-}
-
 /* Whether some step may solve equations: that of an implicit body, or of bodies with methods of their own that meet. In
  * place of other explicit steps implicit Euler may stand, where something is fast or goes wrong; but not of particles.
  */
@@ -62,8 +54,6 @@ static bool may_solve(const SporeWorld *world) {
   }
   return passive > 1;
 }
-
-static bool may_soften(const SporeWorld *world) { return may_touch(world) && has_explicit(world); }
 
 /* Items: what a stage works on. */
 
@@ -136,8 +126,8 @@ static const SporeStageType stages[] = {
      N_("links may bear too much"), N_("no link can break")},
     {"tear_holds", has_holds, spore_world_tear_holds, tools, /**/
      N_("what jaws hold may tear away"), N_("no jaws hold anything")},
-    {"watch_contacts", may_soften, spore_world_watch_contacts, contacts, /**/
-     N_("explicit steps soften contacts"), N_("no explicit step softens a contact")},
+    {"watch_energy", spore_world_may_gain_energy, spore_world_watch_energy, bodies, /**/
+     N_("some methods may make energy out of nothing"), N_("no method makes energy out of nothing")},
     {"report", has_passive, spore_world_report_islands, islands, /**/
      N_("what went wrong is counted and said"), N_("no body moves by physics")},
     {"refine_splines", may_refine, spore_world_refine_splines, lines, /**/
@@ -149,20 +139,13 @@ _Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE
 
 /* Work besides stages that a world does not need. */
 
+/* Contacts and links may need an implicit step: see multirate.c. */
 static bool explicit_alone(const SporeWorld *world) {
-  const SporeBody *first = NULL;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->role != SPORE_PASSIVE) continue;
-    if (!first) first = body;
-    /* Bodies with different choices are coupled implicitly. */
-    if (spore_integrator(body->method.integrator)->implicit || body->method.integrator != first->method.integrator ||
-        body->method.substeps != first->method.substeps)
-      return false;
+    if (body->role == SPORE_PASSIVE && spore_integrator(body->method.integrator)->implicit) return false;
   }
-  for (size_t i = 0; i < world->links.count; i++)
-    if (world->links.all[i].type->is_joint) return false;
-  return first != NULL;
+  return has_passive(world) && !has_terms(world);
 }
 
 static bool has_unmovable_spheres(const SporeWorld *world) {
@@ -191,7 +174,7 @@ static const struct {
     {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start")},
     {N_("integration"), no_passive, N_("no body moves by physics")},
     {N_("the nonlinear solver"), explicit_alone,
-     N_("every body is integrated explicitly; it is kept for recovery only")},
+     N_("every body is integrated explicitly, and nothing touches or ties them")},
     {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out")},
     {N_("tools"), no_tools, N_("no instrument does more than touch")},
     {N_("devices and feedback"), no_active, N_("no body is driven by a device or a track")},
@@ -279,7 +262,9 @@ bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMetho
                           .substeps_source = body->method.substeps_source,
                           .balances = spore_body_is_static(body) && spore_body_is_held(world, index)};
   if (body->method.integrator != body->method.chosen) method->integrator.source = SPORE_SOURCE_MONITOR;
-  if (!integrator->implicit) return true;
+  /* Islands are sorted anew by each step, so that sorting them changes nothing that is kept. */
+  method->coupled = spore_body_coupled((SporeWorld *)(uintptr_t)world, index, &method->resolving);
+  if (!integrator->implicit && method->coupled == SPORE_COUPLED_NEVER) return true;
   method->nonlinear = nonlinear_choice(world, body, method->balances);
   method->linear = linear_choice(world, body);
   return true;

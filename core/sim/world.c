@@ -42,8 +42,7 @@ void spore_world_free(SporeWorld *world) {
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->method.integrator = body->method.chosen;
-  body->reported.deep = body->reported.fast = body->reported.passed = body->reported.soft = body->altered = false;
-  body->collision.soft_since = body->collision.soft_last = 0;
+  body->reported.deep = body->reported.fast = body->reported.passed = body->reported.error = body->altered = false;
   body->collision.impact = (SporeImpact){0};
   body->sleep.steps = 0;
   spore_body_thaw(body);

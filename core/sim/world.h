@@ -310,12 +310,21 @@ typedef struct SporeChoice {
   const char *name; /* as in the file; NULL: the body is integrated explicitly, so that there is nothing to solve */
   SporeMethodSource source;
 } SporeChoice;
+/* What makes steps of a body with an explicit method implicit. Then implicit Euler moves the body; particles keep their
+ * method, and their contacts alone are implicit. */
+typedef enum SporeCoupled {
+  SPORE_COUPLED_NEVER,    /* nothing: nothing ties the body or can touch it; or its method is implicit */
+  SPORE_COUPLED_CONTACTS, /* contacts, in steps that do not resolve them */
+  SPORE_COUPLED_LINKS,    /* links that a step does not resolve, or links with bodies of other methods */
+} SporeCoupled;
 /* How a passive body is integrated and solved now. */
 typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
   size_t substeps;
   SporeMethodSource substeps_source;
   bool balances; /* static, and held by a pin or a link: each step finds a balance, one of several that there may be */
+  SporeCoupled coupled;
+  size_t resolving; /* coupled by links: as many substeps would resolve them; 0: no number of them does */
 } SporeMethod;
 /* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine
  * of 2024, so that every machine says the same. */
@@ -329,6 +338,10 @@ typedef struct SporeBodyWork {
 bool spore_world_body_work(const SporeWorld *world, uint32_t body, SporeBodyWork *work);
 /* Fills *method. False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);
+/* The share of its energy that the body's method takes from its slowest swing in a second, 0..1, beside all damping
+ * that the scene asks for: of a rigid body on a ball joint as it swings now, and of an elastic body that pins alone
+ * hold in small swings about where it is. Takes memory, and as long as a factor. False: the swing is not known. */
+bool spore_world_body_damping(const SporeWorld *world, uint32_t body, double *share);
 /* Times of whole steps. */
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world);
 
@@ -346,13 +359,12 @@ typedef struct SporeMonitor {
   uint64_t not_finite;       /* steps taken again since the result was not finite; where that does not help, the body is
                                 frozen */
   uint64_t too_fast;         /* steps taken again since something was faster than maximum_speed */
-  uint64_t energy;           /* steps taken again since an explicit integrator made energy without bound; the body is
-                                integrated implicitly from then on */
+  uint64_t energy;           /* looks that found more energy made out of nothing than there was; the body is integrated
+                                implicitly from then on */
   uint64_t not_converged;    /* steps that were accepted with a residual above the tolerance (SporeStepCounts.residual);
                                 taken again before where the residual is large or energy was gained; of three in a row
                                 of which nothing was solved, the body that is pulled hardest is frozen */
   uint64_t deep_contacts;    /* contacts deeper than the radius of the smaller sphere; reported only */
-  uint64_t soft_contacts;    /* contacts at rest with less than half of the stiffness they should have; reported only */
   uint64_t over_budget;      /* steps that took longer than the budget; reported only */
   uint64_t held_inputs;      /* inputs of devices that were refused: not finite, or a jump */
   uint64_t shortened_forces; /* forces on a device that were reduced since they gave the hand more energy than it had
@@ -381,18 +393,6 @@ SporeUnsolved spore_world_unsolved(const SporeWorld *world, size_t i);
 /* Sets the time that a step may take, us of the clock; 0: any. A longer step is counted and reported; nothing else
  * changes. */
 void spore_world_set_budget(SporeWorld *world, double budget_us);
-/* How much of its contacts' stiffness an explicit step leaves, and what would leave enough of it. */
-typedef struct SporePileLimit {
-  double share;    /* part of the contacts' stiffness that remains in effect */
-  size_t substeps; /* that leave enough; more than SPORE_SUBSTEPS_MAXIMUM: too many to be taken */
-  double damping;  /* contact damping that leaves enough, N s/m; 0: none does */
-  bool implicit;   /* an implicit integrator would leave enough, too */
-} SporePileLimit;
-/* Whether explicit steps are too long for contacts at rest: the body would sink into a pile of bodies like it, or, of
- * particles, into what holds them. True: *limit says how much, and what to do. */
-bool spore_world_pile_sinks(const SporeWorld *world, uint32_t body, SporePileLimit *limit);
-/* Writes the remedy: "take ...", translated. text: room for `size` bytes. */
-void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size);
 /* How fast a body may come for a contact to hold it: within the depth of the smaller sphere's radius r, a contact of
  * stiffness k stops the mass m up to the speed r sqrt(k/m) (core/collide/response.h). */
 typedef struct SporeStoppingSpeed {

@@ -45,7 +45,7 @@ struct SporeBody {
   SporePreconditioner preconditioner;
   SporeBodyHistory history;
   SporeBodySleep sleep;
-  SporeEnergyWatch watch;
+  double own_energy;      /* kinetic and of the model, when the energy watch began, J */
   uint32_t pause, pauses; /* steps until recovery tries smaller steps again; length of the last pause */
   uint32_t hopeless;      /* steps that could not be solved at all, in a row: see recovery.c */
   uint64_t hopeless_step; /* number of the last one */
@@ -84,6 +84,11 @@ static inline bool spore_body_moves(const SporeBody *body) {
 /* Whether the body's own forces are independent of its velocity. */
 static inline bool spore_body_is_static(const SporeBody *body) {
   return body->method.integrator == SPORE_INTEGRATOR_STATIC;
+}
+/* Whether the body keeps its explicit method where contacts and links are implicit: see multirate.c. Only particles do,
+ * which have no Jacobian for an implicit step. */
+static inline bool spore_body_goes_alone(const SporeBody *body) {
+  return !spore_integrator(body->method.integrator)->implicit && body->model->type->rates;
 }
 /* Gravity on the body, less its buoyancy in air, m/s^2. */
 static inline SporeVec3 spore_body_gravity(const SporeWorld *world, const SporeBody *body) {

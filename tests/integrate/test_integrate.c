@@ -426,7 +426,7 @@ static SporeWorld *couple(const Pair *pair) {
   description.links = links;
   description.link_count = spore_vec3_length(pair->gravity) > 0 ? 2 : 1;
   description.solver.time_step = pair->h;
-  description.solver.tolerance = 1e-8;
+  description.solver.tolerance = 1e-10;
   description.solver.sleep_speed = 0;
   return create(&description);
 }
@@ -442,8 +442,8 @@ static void couple_to(const Pair *pair, double time_s, double *q) {
 static const SporeIntegratorKind explicit_kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_VERLET,
                                                      SPORE_INTEGRATOR_RK4};
 
-/* Bodies of two methods on a smooth spring: of first order together, and the explicit one's matrix is never asked
- * for. */
+/* Bodies of two methods on a smooth spring: of first order together, and both implicit, so that the spring acts as it
+ * is written. */
 static void test_multirate_order(void) {
   Pair pair = {{SPORE_INTEGRATOR_RK4, SPORE_INTEGRATOR_RK4}, 1, {60, 200}, 40, 0.1, 1e-5, {0, -9.81, 0}, 0};
   double exact[18], q[18], error[LEVELS];
@@ -464,7 +464,7 @@ static void test_multirate_order(void) {
                    spore_integrator_names[explicit_kinds[k]], slope, error[0]);
     g_assert_cmpfloat_with_epsilon(slope, 1, 0.2);
     g_assert_cmpuint(spore_world_counts(world).islands, ==, 1);
-    g_assert_cmpfloat(world->bodies[0].preconditioner.matrix_c, ==, 0);
+    g_assert_cmpfloat(world->bodies[0].preconditioner.matrix_c, >, 0);
     g_assert_cmpfloat(world->bodies[1].preconditioner.matrix_c, >, 0);
     spore_world_free(world);
   }

@@ -110,7 +110,7 @@ static Life live(SporeSchema *schema, const char *file, guint64 failing) {
   SporeDocument *document = spore_scene_load(schema, file, &error);
   life.read = document != NULL;
   SporePool *pool = document ? spore_pool_create(1) : NULL;
-  SporeSimulation *simulation = pool ? spore_simulation_new(document, pool, NULL, &error) : NULL;
+  SporeSimulation *simulation = pool ? spore_simulation_new(document, pool, NULL, NULL, &error) : NULL;
   life.made = simulation != NULL;
   if (life.made) run(simulation->world);
   spore_allocation_fail_at(0);

@@ -13,7 +13,7 @@ Scene scene_open(const char *file, const char *path, const char *property, const
   g_assert_no_error(error);
   if (path) spore_edit_set_property(scene.document, path, property, value, &error);
   g_assert_no_error(error);
-  scene.simulation = spore_simulation_new(scene.document, NULL, NULL, &error);
+  scene.simulation = spore_simulation_new(scene.document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
   scene.world = scene.simulation->world;
   return scene;

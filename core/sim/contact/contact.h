@@ -64,11 +64,9 @@ typedef struct SporeCollisionUnit {
   size_t start;          /* index of the body's first sphere among all spheres */
   SporeDepthField field; /* empty: the body's spheres are felt one by one */
   double *whole_weight;  /* weights of `spheres` before anything was cut, for a reset; NULL: nothing can cut the body */
-  uint64_t soft_since,
-      soft_last; /* numbers of steps, from 1: first and last step in a row with a soft contact, see soft_contact.c */
-  bool put;      /* the body was put where it is, or changed, since the last step: see spore_body_put */
-  bool moved;    /* its spheres are not where they were a step ago */
-  bool pulled;   /* a viewer's pull moves the body: what it enters it has not entered by its own motion */
+  bool put;              /* the body was put where it is, or changed, since the last step: see spore_body_put */
+  bool moved;            /* its spheres are not where they were a step ago */
+  bool pulled;           /* a viewer's pull moves the body: what it enters it has not entered by its own motion */
   SporeImpact impact;
 } SporeCollisionUnit;
 
@@ -107,8 +105,5 @@ void spore_world_keep_pairs(SporeWorld *world);
 /* passing.c: counts and reports bodies that contacts do not hold: that come too fast, are deeper than the radius of a
  * sphere, or passed each other in the step before. */
 void spore_world_watch_passing(SporeWorld *world);
-
-/* soft_contact.c. Stage: reports contacts at rest that are too soft since the step is too long. */
-void spore_world_watch_contacts(SporeWorld *world);
 
 #endif

@@ -58,71 +58,35 @@ SPORE_INLINE EndState end_state(SporeContactLanes *lanes, SporeLaneEnd *end, int
   return frame_state(end, k, moves, at, lanes->rubs);
 }
 
-/* spore_contact_step */
-SPORE_INLINE SporeVd step(SporeVd x, SporeVd width, SporeVd *slope) {
+/* spore_contact_step, without the slope */
+SPORE_INLINE SporeVd step(SporeVd x, SporeVd width) {
   SporeVd y = x / width, zero = {0}, one = spore_vd_all(1);
   SporeVl inside = (x > zero) & (x < width);
-  *slope = spore_vd_select(inside, 6 * y * (1 - y) / width, zero);
   return spore_vd_select(inside, y * y * (3 - 2 * y), spore_vd_select(x > zero, one, zero));
 }
 
-/* Normal force by the law itself. For lanes where a step by the slopes of the law would throw the two ends of an
- * overlap apart so fast that the law is no longer linear. */
-static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, int k, SporeVl fast, SporeVd depth,
-                                              SporeVd gap_speed, SporeVd pressing) {
-  for (int i = 0; i < SPORE_WIDTH; i++) {
-    if (!fast[i]) continue;
-    int lane = k + i;
-    const SporeContactLaw law = {.stiffness = lanes->stiffness[lane],
-                                 .damping = lanes->damping[lane],
-                                 .damping_depth = lanes->damping_depth[lane]};
-    pressing[i] = spore_contact_implicit_pressing(&law, lanes->ahead[lane], lanes->faster[lane], depth[i],
-                                                  lanes->overlap[lane], gap_speed[i], pressing[i]);
-  }
-  return pressing;
-}
-
-/* N of the law; less where the contact is softened. */
-SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous,
-                           SporeVd viscous_slope) {
+/* N of the law. */
+SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous) {
   const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
-  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, fading = zero, exit_slope = zero;
-  SporeVd held = depth, share = spore_vd_all(1);
+  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, held = depth;
   if (lanes->overlaps) {
     SporeVd overlap = spore_vd_load(lanes->overlap + k);
-    SporeVd lost = step(gap_speed - half_exit, spore_vd_all(half_exit), &exit_slope);
-    fading = spore_vd_select(overlap < depth, overlap, depth);
-    share = spore_vd_select(overlap < depth, share, 1 - lost);
-    held = depth - lost * fading;
+    SporeVd lost = step(gap_speed - half_exit, spore_vd_all(half_exit));
+    held = depth - lost * spore_vd_select(overlap < depth, overlap, depth);
   }
   SporeVd force = stiffness * held - viscous * gap_speed;
-  SporeVl presses = (depth > zero) & (force > zero);
-  if (!lanes->softened) return spore_vd_select(presses, force, zero);
-  SporeVd ahead = spore_vd_load(lanes->ahead + k), faster = spore_vd_load(lanes->faster + k);
-  SporeVd slope = spore_vd_max(stiffness * share - spore_vd_load(lanes->damping + k) * viscous_slope * gap_speed, zero);
-  SporeVd pressing = force / (1 + faster * (stiffness * fading * exit_slope + viscous + ahead * slope));
-  pressing = spore_vd_select(presses, pressing, zero);
-  if (!lanes->overlaps) return pressing;
-  SporeVl fast =
-      presses & (fading > zero) & (faster > zero) & (gap_speed + faster * pressing > spore_vd_all(half_exit));
-  if (__builtin_expect(spore_vl_any(fast), 0)) pressing = bend(lanes, k, fast, depth, gap_speed, pressing);
-  return pressing;
+  return spore_vd_select((depth > zero) & (force > zero), force, zero);
 }
 
-/* T, and the yield. moved: motion of the contact point of a on b since the step began. */
-SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3 moved, SporeVd3 velocity,
+/* T. moved: motion of the contact point of a on b since the step began. */
+SPORE_INLINE SporeVd3 hold(const SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3 moved, SporeVd3 velocity,
                            SporeVd viscous, SporeVd pressing) {
-  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, softer = spore_vd_all(1);
+  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0};
   SporeVd3 stretch = spore_vd3_add(load(&lanes->stretch, k), across(n, moved));
   SporeVd3 held = spore_vd3_add(spore_vd3_scale(stiffness, stretch), spore_vd3_scale(viscous, across(n, velocity)));
-  if (lanes->softened) {
-    softer += spore_vd_load(lanes->faster + k) * (viscous + spore_vd_load(lanes->ahead + k) * stiffness);
-    held = spore_vd3_scale(1 / softer, held);
-  }
   SporeVd longest = spore_vd_load(lanes->friction + k) * pressing, square = spore_vd3_dot(held, held);
   SporeVl slips = square > longest * longest, rubs = longest > zero;
   SporeVd cut = spore_vd_select(slips, longest / spore_vd_sqrt(square), spore_vd_all(1));
-  spore_vd_store(lanes->yield + k, spore_vd_select(rubs, softer * pressing, pressing));
   return spore_vd3_select(rubs, spore_vd3_scale(cut, held), none());
 }
 
@@ -132,11 +96,9 @@ SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, co
   EndState a = end_state(lanes, &lanes->a, k, at, v), b = end_state(lanes, &lanes->b, k, at, v);
   SporeVd3 own = spore_vd3_sub(a.velocity, b.velocity), velocity = spore_vd3_add(own, driven);
   SporeVd3 moved = spore_vd3_add(spore_vd3_sub(a.motion, b.motion), spore_vd3_scale(spore_vd_all(elapsed_s), driven));
-  if (lanes->softened) moved = spore_vd3_add(moved, spore_vd3_scale(spore_vd_load(lanes->ahead + k), own));
-  SporeVd depth = spore_vd_load(lanes->depth + k) - spore_vd3_dot(n, moved), viscous_slope;
-  SporeVd viscous =
-      spore_vd_load(lanes->damping + k) * step(depth, spore_vd_load(lanes->damping_depth + k), &viscous_slope);
-  SporeVd pressing = press(lanes, k, depth, spore_vd3_dot(n, velocity), viscous, viscous_slope);
+  SporeVd depth = spore_vd_load(lanes->depth + k) - spore_vd3_dot(n, moved);
+  SporeVd viscous = spore_vd_load(lanes->damping + k) * step(depth, spore_vd_load(lanes->damping_depth + k));
+  SporeVd pressing = press(lanes, k, depth, spore_vd3_dot(n, velocity), viscous);
   SporeVd3 force = spore_vd3_scale(pressing, n);
   spore_vd_store(lanes->pressing + k, pressing);
   if (lanes->rubs) {
@@ -144,12 +106,9 @@ SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, co
     if (lanes->kind == SPORE_LANES_FRAMES) {
       SporeVl rolls = mask(lanes->rolls + k);
       SporeVd3 slip = spore_vd3_scale(spore_vd_all(elapsed_s), velocity);
-      if (lanes->softened) slip = spore_vd3_add(slip, spore_vd3_scale(spore_vd_load(lanes->ahead + k), own));
       moved = spore_vd3_select(rolls, slip, moved);
     }
     force = spore_vd3_sub(force, hold(lanes, k, n, moved, velocity, viscous, pressing));
-  } else {
-    spore_vd_store(lanes->yield + k, pressing);
   }
   store(&lanes->force, k, force);
 }

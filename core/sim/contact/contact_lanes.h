@@ -32,7 +32,7 @@ typedef struct SporeLaneEnd {
 /* Consecutive contacts of an island. Lanes behind the last contact have no force. */
 typedef struct SporeContactLanes {
   SporeLanesKind kind;
-  bool rubs, softened, overlaps; /* whether some lane has friction, is softened, has an overlap */
+  bool rubs, overlaps; /* some lane has friction; some lane has an overlap */
   uint32_t count;
   SporeLaneEnd a, b;
   SporeLaneVector normal, driven; /* driven: velocity of prescribed ends, a less b, m/s */
@@ -40,16 +40,15 @@ typedef struct SporeContactLanes {
   double depth[SPORE_LANES];      /* that presses, m */
   double overlap[SPORE_LANES];    /* of it, m: see SporeContactTerm */
   double stiffness[SPORE_LANES], damping[SPORE_LANES], damping_depth[SPORE_LANES], friction[SPORE_LANES];
-  double ahead[SPORE_LANES], faster[SPORE_LANES]; /* t, and w h, of the softening */
   SporeLaneVector stretch;
   SporeLaneVector force;
-  double pressing[SPORE_LANES], yield[SPORE_LANES];
+  double pressing[SPORE_LANES];
 } SporeContactLanes;
 
 /* Number of SporeContactLanes that so many contacts take. */
 static inline size_t spore_lanes_for(size_t contacts) { return (contacts + SPORE_LANES - 1) / SPORE_LANES; }
 
-/* Force, pressing and yield, and the levers of frames. `at`: q, or the frames; elapsed_s: since the step began. */
+/* Force and pressing, and the levers of frames. `at`: q, or the frames; elapsed_s: since the step began. */
 SPORE_DECLARE_KERNEL(void, spore_contact_lanes_force, SporeContactLanes *lanes, const double *at, const double *v,
                      double elapsed_s);
 

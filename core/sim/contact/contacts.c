@@ -221,15 +221,14 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *found
   term->field_b = found->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
-  term->slack = term->overlap = 0;
+  term->overlap = 0;
   set_arms(world, term);
   turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
   turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
   term->law =
       spore_contact_law(&a, &b, world->contact.spheres.radius[contact->a], world->contact.spheres.radius[contact->b]);
-  term->softening = (SporeSoftening){0, 0, 0};
   term->stretch = term->drag = term->force = (SporeVec3){0, 0, 0};
-  term->pressing = term->yield = INFINITY;
+  term->pressing = INFINITY;
 }
 
 void spore_world_respond(SporeWorld *world) {

@@ -81,7 +81,7 @@ static void fill_lane(const SporeIslandSystem *system, const SporeContactTerm *t
   SporeVec3 none = {0, 0, 0}, driven = term->a.prescribed ? term->a.velocity : none;
   set_lane(&lanes->driven, k, term->b.prescribed ? spore_vec3_sub(driven, term->b.velocity) : driven);
   set_lane(&lanes->stretch, k, term->stretch);
-  lanes->depth[k] = term->depth - term->slack;
+  lanes->depth[k] = term->depth;
   lanes->overlap[k] = term->overlap;
   lanes->overlaps |= term->overlap > 0;
   lanes->rolls[k] = spore_contact_term_rolls(term) ? -1 : 0;
@@ -89,7 +89,6 @@ static void fill_lane(const SporeIslandSystem *system, const SporeContactTerm *t
   lanes->damping[k] = term->law.damping;
   lanes->damping_depth[k] = term->law.damping_depth;
   lanes->friction[k] = term->law.friction;
-  lanes->ahead[k] = lanes->faster[k] = 0;
   lanes->rubs |= term->law.friction > 0;
 }
 
@@ -111,7 +110,6 @@ static void empty_lane(SporeContactLanes *lanes, size_t k) {
   set_lane(&lanes->stretch, k, none);
   lanes->rolls[k] = 0;
   lanes->depth[k] = lanes->overlap[k] = lanes->stiffness[k] = lanes->damping[k] = lanes->friction[k] = 0;
-  lanes->ahead[k] = lanes->faster[k] = 0;
   lanes->damping_depth[k] = 1;
 }
 
@@ -119,48 +117,31 @@ static bool is_driven(const SporeEnd *end) {
   return end->prescribed && spore_vec3_dot(end->velocity, end->velocity) > 0;
 }
 
-static void begin_terms(SporeIslandSystem *system) {
-  const SporeSoftening none = {0, 0, 0};
-  system->softened_s = 0;
+static void find_driven(SporeIslandSystem *system) {
   system->driven = false;
   for (size_t i = 0; i < system->island->contact_count; i++) {
-    SporeContactTerm *term = spore_island_system_contact(system, i);
-    term->softening = none;
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
     system->driven |= is_driven(&term->a) || is_driven(&term->b);
   }
   for (size_t i = 0; i < system->island->spring_count; i++) {
-    SporeSpringTerm *term = spore_island_system_spring(system, i);
-    term->softening = none;
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
     system->driven |= is_driven(&term->a) || is_driven(&term->b);
   }
 }
 
 void spore_island_system_lay_contacts(SporeIslandSystem *system) {
-  begin_terms(system);
+  find_driven(system);
   system->frames = false;
   for (size_t i = 0; i < lanes_count(system); i++) {
     SporeContactLanes *lanes = lanes_at(system, i);
     size_t first = i * SPORE_LANES, count = count_in(system, i);
     lanes->kind = kind_of(system, first, count);
     lanes->count = (uint32_t)count;
-    lanes->rubs = lanes->softened = lanes->overlaps = false;
+    lanes->rubs = lanes->overlaps = false;
     if (lanes->kind == SPORE_LANES_APART) continue;
     system->frames |= lanes->kind == SPORE_LANES_FRAMES;
     for (size_t k = 0; k < count; k++) fill_lane(system, spore_island_system_contact(system, first + k), lanes, k);
     for (size_t k = count; k < SPORE_LANES; k++) empty_lane(lanes, k);
-  }
-}
-
-void spore_island_system_soften_lanes(const SporeIslandSystem *system) {
-  for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = lanes_at(system, i);
-    lanes->softened = false;
-    for (size_t k = 0; k < lanes->count; k++) {
-      const SporeSoftening *softening = &spore_island_system_contact(system, i * SPORE_LANES + k)->softening;
-      lanes->ahead[k] = softening->ahead;
-      lanes->faster[k] = softening->inverse_mass * softening->h;
-      lanes->softened |= softening->inverse_mass > 0;
-    }
   }
 }
 
@@ -172,7 +153,6 @@ void spore_island_system_keep_contacts(const SporeIslandSystem *system) {
       SporeContactTerm *term = spore_island_system_contact(system, i * SPORE_LANES + k);
       term->force = lane_of(&lanes->force, k);
       term->pressing = lanes->pressing[k];
-      term->yield = lanes->yield[k];
     }
   }
 }

@@ -88,5 +88,4 @@ void spore_island_freeze(SporeWorld *world, SporeIsland *island, uint32_t index)
 void spore_body_thaw(SporeBody *body) {
   body->frozen = false;
   body->reported.trouble = SPORE_TROUBLE_NONE;
-  body->watch.started = false;
 }

@@ -75,16 +75,9 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   return total;
 }
 
-/* Particles have no Jacobian for an implicit step. */
-static bool has_particles(const SporeWorld *world, const SporeIsland *island) {
-  for (size_t i = 0; i < island->kept_count; i++)
-    if (world->bodies[world->solve.island_bodies[island->body_start + i]].model->type->rates) return true;
-  return false;
-}
-
 /* Whether bodies that are still apart meet within the step. Only fast bodies do. Which of their contacts press is only
  * known at the end of the step. An explicit method evaluates forces where the bodies are still apart or already past
- * each other, or softens all contacts alike, and would let the bodies pass through each other. */
+ * each other, and would let the bodies pass through each other. */
 static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
   assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++)
@@ -92,30 +85,75 @@ static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
   return false;
 }
 
-/* The method of the island in this step. A contact that the step does not resolve is an impact, which no method follows
- * to second order: a method with too little damping throws bodies out faster than they came in. Then implicit Euler
- * takes its place, unless the method controls its error. */
-static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+/* The step of an integrator in the island, s. */
+static double step_of(const SporeWorld *world, const SporeIsland *island) {
   assert(island->substeps >= 1);
-  const SporeIntegrator *integrator = spore_integrator(island->integrator);
-  if (!integrator->implicit)
-    return meets_in_step(world, island) && !has_particles(world, island) ? SPORE_INTEGRATOR_IMPLICIT_EULER
-                                                                         : island->integrator;
-  bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
-  if (integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
-  const SporeIslandSystem system = {.world = world, .island = island};
-  bool resolved = spore_island_system_resolves_contacts(&system, world->solver.time_step / (double)island->substeps);
-  return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
+  return world->solver.time_step / (double)island->substeps;
 }
 
-/* Sets the slack of contacts for a step of implicit Euler in place of an explicit one. Explicit steps soften contacts,
- * so bodies may lie deeper in each other than the law allows. Implicit Euler would push such bodies apart at once, and
- * give back more energy than the contacts took. With the slack it only keeps them from going deeper. */
-static void slacken(SporeWorld *world, const SporeIsland *island) {
-  for (size_t i = 0; i < island->contact_count; i++) {
-    SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
-    term->slack = fmax(term->depth, 0);
+static bool some_go_alone(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (spore_body_goes_alone(&world->bodies[world->solve.island_bodies[island->body_start + i]])) return true;
+  return false;
+}
+
+/* An explicit island with contacts or links that its step does not resolve takes this step by implicit Euler. Particles
+ * keep their own method: only contacts and links are implicit. */
+static void couple(SporeWorld *world, SporeIsland *island) {
+  if (spore_integrator(island->integrator)->implicit) return;
+  const SporeIslandSystem system = {.world = world, .island = island};
+  if (!meets_in_step(world, island) && spore_island_system_resolves(&system, step_of(world, island), true)) return;
+  island->multirate = some_go_alone(world, island);
+  island->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
+  spore_island_gather(world, island); /* with the history of that method */
+}
+
+/* Smallest number of substeps that resolves the links of the island; 0: there is none. */
+static size_t substeps_to_resolve(SporeWorld *world, const SporeIsland *island) {
+  const SporeIslandSystem system = {.world = world, .island = island};
+  size_t low = 0, high = 1;
+  while (high <= SPORE_SUBSTEPS_MAXIMUM &&
+         !spore_island_system_resolves(&system, world->solver.time_step / (double)high, true))
+    low = high, high *= 2;
+  if (high > SPORE_SUBSTEPS_MAXIMUM) return 0;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    if (spore_island_system_resolves(&system, world->solver.time_step / (double)middle, true)) high = middle;
+    else low = middle;
   }
+  return high;
+}
+
+SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t index, size_t *resolving) {
+  assert(index < world->body_count && resolving);
+  const SporeBody *body = &world->bodies[index];
+  *resolving = 0;
+  if (spore_integrator(body->method.integrator)->implicit) return SPORE_COUPLED_NEVER;
+  SporeCoupled otherwise =
+      world->contact.grid && body->collision.spheres.point_count > 0 ? SPORE_COUPLED_CONTACTS : SPORE_COUPLED_NEVER;
+  if (!spore_body_moves(body)) return otherwise;
+  spore_world_find_islands(world);
+  SporeIsland alike = world->solve.islands[world->solve.island_of[index]];
+  alike.contact_count = 0; /* they come and go */
+  if (alike.spring_count == 0) return otherwise;
+  if (alike.multirate) return SPORE_COUPLED_LINKS;
+  spore_island_gather(world, &alike);
+  const SporeIslandSystem system = {.world = world, .island = &alike};
+  if (spore_island_system_resolves(&system, step_of(world, &alike), true)) return otherwise;
+  *resolving = substeps_to_resolve(world, &alike);
+  return SPORE_COUPLED_LINKS;
+}
+
+/* The method of an implicit island in this step. A contact that the step does not resolve is an impact, which no method
+ * follows to second order: a method with too little damping throws bodies out faster than they came in. Then implicit
+ * Euler takes its place, unless the method controls its error. */
+static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+  const SporeIntegrator *integrator = spore_integrator(island->integrator);
+  bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
+  if (!integrator->implicit || integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
+  const SporeIslandSystem system = {.world = world, .island = island};
+  bool resolved = spore_island_system_resolves(&system, step_of(world, island), false);
+  return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
 }
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
@@ -133,12 +171,66 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     multirate.residual = whole.residual;
     return multirate;
   }
-  SporeIntegratorKind kind = method(world, island);
-  if (kind != island->integrator && !spore_integrator(island->integrator)->implicit) {
-    island->stand_in = spore_integrator(kind);
-    slacken(world, island);
+  return spore_island_advance(world, island, method(world, island), island->substeps, NULL);
+}
+
+/* Whether a model of the island keeps something of where its forces were evaluated: then an evaluation elsewhere would
+ * change what follows, if by rounding only. */
+static bool some_remember(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (world->bodies[world->solve.island_bodies[island->body_start + i]].model->type->forget) return true;
+  return false;
+}
+
+/* Whether the error of this step is measured: every 64th time that the island is explicit. */
+static bool is_looked_at(const SporeWorld *world, const SporeIsland *island) {
+  bool is_explicit = !spore_integrator(island->integrator)->implicit;
+  return is_explicit && !some_remember(world, island) &&
+         world->state.step % SPORE_STEPS_BETWEEN_LOOKS == SPORE_STEPS_BETWEEN_LOOKS - 1;
+}
+
+/* Takes the step in halves, to best_q and best_v. To be called before the step itself, which then overwrites all else
+ * that this changes. */
+static void take_halves(SporeWorld *world, SporeIsland *island) {
+  assert(island->kept_count >= 1);
+  SporeIsland trial = *island;
+  trial.q1 = world->solve.best_q + island->q_start;
+  trial.v1 = world->solve.best_v + island->v_start;
+  spore_island_advance(world, &trial, trial.integrator, 2 * trial.substeps, NULL);
+  spore_island_gather(world, island);
+}
+
+/* (x.M x)^1/2 for x = a - b; b: NULL for 0. */
+static double speed_norm(const SporeWorld *world, const SporeIsland *island, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t index = world->solve.island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[index];
+    size_t at = world->solve.local_sites[index].v;
+    const double *mass = world->state.mass + 3 * body->v_offset;
+    for (size_t k = 0; k < body->block_count; k++, at += 3, mass += 9) {
+      SporeVec3 x = spore_vec3_load(a + at);
+      if (b) x = spore_vec3_sub(x, spore_vec3_load(b + at));
+      double turned[3], plain[3];
+      spore_vec3_store(plain, x);
+      spore_blocks_apply(mass, 1, plain, turned);
+      sum += spore_vec3_dot(x, spore_vec3_load(turned));
+    }
   }
-  return spore_island_advance(world, island, kind, island->substeps, NULL);
+  return sqrt(sum);
+}
+
+#define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
+
+/* How far the step and its halves are apart, against the speed and what gravity gives in a step. */
+static double error_of_step(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->attempts > 1);
+  double h = world->solver.time_step, mass = 0;
+  for (size_t i = 0; i < island->kept_count; i++)
+    mass += world->bodies[world->solve.island_bodies[island->body_start + i]].total_mass;
+  double speed = fmax(speed_norm(world, island, island->v0, NULL), speed_norm(world, island, island->v1, NULL));
+  double least = h * island->gravity_momentum + SMALLEST_SPEED * sqrt(mass);
+  return speed_norm(world, island, island->v1, world->solve.best_v + island->v_start) / (speed + least);
 }
 
 static void integrate_island(void *data, size_t index) {
@@ -146,8 +238,12 @@ static void integrate_island(void *data, size_t index) {
   SporeWorld *world = data;
   SporeIsland *island = &world->solve.islands[index];
   spore_island_gather(world, island);
+  couple(world, island);
+  bool looked_at = is_looked_at(world, island);
+  if (looked_at) take_halves(world, island);
   island->result = advance(world, island);
   if (spore_cancel_asked(world->cancel)) return; /* the step ends, and nothing of what it did is kept */
+  if (looked_at) island->error = error_of_step(world, island);
   if (spore_island_choose(world, island)) {
     SporeStepResult spent = island->result;
     spore_island_gather(world, island);
@@ -157,8 +253,6 @@ static void integrate_island(void *data, size_t index) {
     island->result.force_evaluations += spent.force_evaluations;
   }
   spore_island_examine(world, island);
-  if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))
-    island->trouble = SPORE_TROUBLE_ENERGY;
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
   if (spore_cancel_asked(world->cancel)) return;
   spore_island_remember(world, island);
@@ -178,6 +272,7 @@ static size_t count_work(const SporeWorld *world) {
 
 void spore_world_integrate(SporeWorld *world) {
   assert(world->solve.island_count <= world->body_count);
+  spore_world_start_watch(world);
   spore_pool_run(spore_pool_for(world->pool, count_work(world)), world->solve.island_count, integrate_island, world);
   SporeStepCounts *counts = &world->state.counts;
   *counts = (SporeStepCounts){.islands = world->solve.island_count, .sleeping = world->solve.sleeping_count};

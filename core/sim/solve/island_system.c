@@ -123,52 +123,39 @@ static double contact_inverse_mass(const SporeWorld *world, const SporeContactTe
 /* A step of h seconds resolves a term well whose h^2 w k + h w d is no more than this. */
 #define RESOLVED 0.25
 
-static bool resolves(double h, double inverse_mass, double stiffness, double damping) {
+/* Explicit Euler resolves only what is well damped, since it feeds energy into all else that swings. */
+static bool resolves(const SporeIslandSystem *system, double h, double inverse_mass, double stiffness, double damping) {
   assert(h > 0 && inverse_mass >= 0);
+  if (system->island->integrator == SPORE_INTEGRATOR_EXPLICIT_EULER && h * stiffness > damping) return false;
   return h * inverse_mass * (h * stiffness + damping) <= RESOLVED;
 }
 
-static SporeSoftening softening(double h, bool resolved, double inverse_mass, double stiffness, double damping) {
-  if (resolved && resolves(h, inverse_mass, stiffness, damping)) return (SporeSoftening){0, 0, 0};
-  return spore_softening(h, inverse_mass, stiffness);
-}
-
-static bool soften(void *data, double h, bool resolved) {
-  assert(h > 0);
-  const SporeVec3 none = {0, 0, 0};
-  SporeIslandSystem *system = data;
-  const SporeWorld *world = system->world;
-  if (system->island->contact_count + system->island->spring_count == 0) return false;
-  if (system->softened_s == h) return true;
-  system->softened_s = h;
-  double *counts = spore_island_system_precondition_blocks(system); /* free: only implicit steps precondition */
-  count_terms(system, counts);
-  for (size_t i = 0; i < system->island->contact_count; i++) {
-    SporeContactTerm *term = spore_island_system_contact(system, i);
-    double inverse_mass = contact_inverse_mass(world, term, counts);
-    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
-  }
-  for (size_t i = 0; i < system->island->spring_count; i++) {
-    SporeSpringTerm *term = spore_island_system_spring(system, i);
-    double inverse_mass =
-        end_inverse_mass(world, &term->a, none, NULL, counts) + end_inverse_mass(world, &term->b, none, NULL, counts);
-    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
-  }
-  spore_island_system_soften_lanes(system);
-  return true;
-}
-
-bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h) {
-  assert(h > 0);
-  if (system->island->contact_count == 0) return true;
-  double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
-  count_terms(system, counts);
+static bool resolves_contacts(const SporeIslandSystem *system, double h, const double *counts) {
   for (size_t i = 0; i < system->island->contact_count; i++) {
     const SporeContactTerm *term = spore_island_system_contact(system, i);
     double inverse_mass = contact_inverse_mass(system->world, term, counts);
-    if (!resolves(h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
+    if (!resolves(system, h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
   }
   return true;
+}
+
+static bool resolves_springs(const SporeIslandSystem *system, double h, const double *counts) {
+  const SporeVec3 none = {0, 0, 0};
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    double inverse_mass = end_inverse_mass(system->world, &term->a, none, NULL, counts) +
+                          end_inverse_mass(system->world, &term->b, none, NULL, counts);
+    if (!resolves(system, h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
+  }
+  return true;
+}
+
+bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links) {
+  assert(h > 0);
+  if (system->island->contact_count + (links ? system->island->spring_count : 0) == 0) return true;
+  double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
+  count_terms(system, counts);
+  return resolves_contacts(system, h, counts) && (!links || resolves_springs(system, h, counts));
 }
 
 static void term_force(void *data, const double *q, const double *v, double *f) {
@@ -348,7 +335,6 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,
-                         .soften = soften,
                          .set_time = set_time,
                          .set_mass = set_mass,
                          .kick = kick,

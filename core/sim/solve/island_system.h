@@ -18,7 +18,7 @@ typedef struct SporeIslandSystem {
   const double *shape;   /* a q of the island: where viscous forces are evaluated; NULL: at the q of each force */
   double shape_s;        /* forces are evaluated where nodes moved from `shape` along v for this time; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
-  bool apart;            /* explicit bodies take part by their mass only: see multirate.c */
+  bool apart;            /* particles that go alone take part by their mass only: see multirate.c */
   bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
@@ -27,13 +27,13 @@ typedef struct SporeIslandSystem {
   bool driven;                                /* a device moves some end */
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
   bool asked_couples, couples;                /* see spore_island_system_couples */
-  double softened_s;                          /* the step that terms are softened for; 0: not softened */
   SporeKeptEquations *equations;              /* where solved equations are kept; NULL: none is solved */
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
-/* Whether a step of h seconds is short for all contacts of the island. */
-bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
+/* Whether a step of h seconds is short for all contacts of the island, and for its links: h w (h k + d) is at most
+ * 0.25, w the sum of n/m over the blocks of both ends, n the number of terms that share a block. */
+bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links);
 /* Whether a pin holds the island, or a link to a body that physics does not move. */
 bool spore_island_system_is_held(const SporeIslandSystem *system);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
@@ -64,7 +64,7 @@ static inline SporeSpringTerm *spore_island_system_spring(const SporeIslandSyste
 
 /* Whether the body moves by a method of its own, and takes part in this system by its mass only: see multirate.c. */
 static inline bool spore_island_system_leaves(const SporeIslandSystem *system, const SporeBody *body) {
-  return system->apart && !spore_integrator(body->method.integrator)->implicit;
+  return system->apart && spore_body_goes_alone(body);
 }
 
 /* Whether the body has a matrix of its own in A; else it has its mass there. */
@@ -142,12 +142,10 @@ static inline void spore_island_system_filter(const SporeIslandSystem *system, d
   }
 }
 
-/* contact_lanes.c. Removes the softening of all terms, and puts contacts into lanes. Adds the forces of all contacts.
- * Copies the softening of the terms into the lanes. */
+/* contact_lanes.c. Puts contacts into lanes. Adds the forces of all contacts. */
 void spore_island_system_lay_contacts(SporeIslandSystem *system);
 void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
                                             double *f);
-void spore_island_system_soften_lanes(const SporeIslandSystem *system);
 
 /* island_factor.c. Whether the island is of rigid bodies alone, and of few. Factorises A as a whole where conjugate
  * gradients did not solve such an island; blocks: the bodies' own diagonal blocks, 9 each. False: it is not done, or

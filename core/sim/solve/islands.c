@@ -103,17 +103,6 @@ static void count_terms(SporeWorld *world, size_t springs) {
   }
 }
 
-/* Joints are stiff, so explicit islands with joints are multirate: their joints are implicit. */
-static void make_jointed_multirate(SporeWorld *world) {
-  for (size_t i = 0; i < world->links.count; i++) {
-    const SporeLink *link = &world->links.all[i];
-    uint32_t island = link->type->is_joint ? island_of_spring(world, link->term_start) : SPORE_NO_BODY;
-    if (island == SPORE_NO_BODY || spore_integrator(world->solve.islands[island].integrator)->implicit) continue;
-    world->solve.islands[island].multirate = true;
-    world->solve.islands[island].integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
-  }
-}
-
 static void set_starts(SporeWorld *world) {
   SporeIsland end = {0};
   for (size_t i = 0; i < world->solve.island_count; i++) {
@@ -161,7 +150,6 @@ void spore_world_find_islands(SporeWorld *world) {
   tie_bodies(world);
   number_islands(world);
   count_terms(world, springs);
-  make_jointed_multirate(world);
   set_starts(world);
   fill_islands(world, springs);
 }

@@ -1,20 +1,19 @@
-/* Multirate steps of an island whose bodies have different methods: explicit bodies keep their own method and substeps,
- * and the terms between bodies are implicit.
+/* Multirate steps: of islands whose bodies have different methods, and of explicit islands with contacts or links that
+ * their step does not resolve. One stage of implicit Euler is solved for the whole island, so that every contact and
+ * link acts as it is written, however stiff. Bodies whose method is explicit take part as all others do, but particles,
+ * which have no Jacobian and keep their own method and substeps.
  *
- * Each explicit body first goes alone through the step, without contacts and links, to (q*, v*). Then one stage of
- * implicit Euler is solved for the whole island. Explicit bodies are free masses there, so that they need no Jacobian,
- *   M (v - v*) = h f_terms,   q = q* + h (v - v*),
- * and the other bodies are as in any implicit step. The impulse of the terms on an explicit body, J = M (v - v*), is
- * then spread over its step as a constant force J/h, and the body goes through the step again. The impulses are equal
- * and opposite, so momentum is kept to the solver's tolerance. On a mode of frequency w of the explicit body a term of
- * any stiffness acts as the map F = -g q*, g <= m/h^2,   (q, v) -> rotation by h w with F constant, whose eigenvalues
- * lie in the unit disk for all h w and g (their product is 1 - g (1 - cos h w) / (m w^2), and 1 +- sum + product >= 0):
- * applied at the end of the step instead, as in impulse multiple time stepping, the same force resonates near h w = pi.
- * A body at rest on a stiff term is off by h^2 a / 2, a the acceleration by the term.
+ * Particles first go alone through the step, without contacts and links, to (q*, v*). In the stage they are free
+ * masses, M (v - v*) = h f_terms,   q = q* - s h v* + h v, s h^2 a the way that a constant acceleration a moves them in
+ * a step of their method (1/2 for Verlet). The impulse of the terms on them, J = M (v - v*), is then spread over their
+ * step as a constant force J/h, and they go through the step again, to q' = q* + s h (v - v*). So terms are evaluated
+ * (1 - s) h v ahead of where the step ends: nowhere else at rest, so that a particle rests where its forces balance. On
+ * a term of stiffness k the eigenvalues of (q, v) -> (q', v') are those of implicit Euler for any s: with g = a/(1 +
+ * a), a = h^2 k/m, their sum is 2 - 2g and their product 1 - g. The impulses are equal and opposite, so momentum is
+ * kept to the solver's tolerance.
  *
- * Where the stage is not solved (friction on nodes that are light without their body's own stiffness), implicit Euler
- * takes the whole step: see integrate.c. In such an island a static body that pins hold has next to no inertia, and
- * loses its velocity. */
+ * Where the stage is not solved (friction on light particles), implicit Euler takes the whole step: see integrate.c. In
+ * such an island a static body that pins hold has next to no inertia, and loses its velocity. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -33,15 +32,14 @@ typedef struct Multirate {
   double *qa, *va, *v, *given, *memory, *q, *scratch; /* q, v: of the part before, where there are several */
 } Multirate;
 
-static bool is_explicit(const SporeBody *body) { return !spore_integrator(body->method.integrator)->implicit; }
-
 static Multirate begin(SporeWorld *world, SporeIsland *island) {
   assert(world->solver.time_step > 0 && world->solve.scratch_per_block >= spore_multirate_scratch());
   size_t n = island->v_count;
   Multirate multirate = {.world = world, .island = island, .parts = 1};
   for (size_t i = 0; i < island->kept_count; i++) {
     const SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    if (!is_explicit(body) && body->method.substeps > multirate.parts) multirate.parts = body->method.substeps;
+    bool implicit = spore_integrator(body->method.integrator)->implicit;
+    if (implicit && body->method.substeps > multirate.parts) multirate.parts = body->method.substeps;
   }
   multirate.h = world->solver.time_step / (double)multirate.parts;
   multirate.qa = world->solve.scratch + world->solve.scratch_per_block * (island->v_start / 3);
@@ -52,6 +50,16 @@ static Multirate begin(SporeWorld *world, SporeIsland *island) {
   multirate.q = multirate.memory + n;
   multirate.scratch = multirate.q + 3 * n;
   return multirate;
+}
+
+static size_t substeps_of(const Multirate *multirate, const SporeBody *body) {
+  return (body->method.substeps + multirate->parts - 1) / multirate->parts;
+}
+
+/* A constant acceleration a moves the body by shift h^2 a in its step of h seconds. */
+static double shift(const Multirate *multirate, const SporeBody *body) {
+  double n = (double)substeps_of(multirate, body);
+  return (n - 1 + 2 * spore_integrator(body->method.integrator)->shift) / (2 * n);
 }
 
 /* The i-th body alone through the step, with the constant force `given` besides its own; NULL: none. From q0, v0 to q1,
@@ -74,7 +82,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
   const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
   SporeHistory history = {.a = multirate->memory};
-  size_t substeps = (body->method.substeps + multirate->parts - 1) / multirate->parts;
+  size_t substeps = substeps_of(multirate, body);
   assert(substeps >= 1);
   double *q = multirate->scratch, *v = q + 2 * alone.v_count, *scratch = v + alone.v_count;
   world->solve.local_sites[index] = (SporeSite){0, 0};
@@ -92,7 +100,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
   world->solve.local_sites[index] = site;
 }
 
-/* Start of the stage: free motion with va for h leads explicit bodies to (q*, v*); other bodies start at (q0, v0). */
+/* Start of the stage: of bodies that go alone q* - s h v* and v*; of all others q0 and v0. */
 static void place_start(const Multirate *multirate, const double *q0, const double *v0, double *q1, double *v1,
                         SporeStepResult *result) {
   assert(multirate->h > 0);
@@ -102,9 +110,9 @@ static void place_start(const Multirate *multirate, const double *q0, const doub
     const SporeBody *body = &world->bodies[index];
     const SporeSite *site = &world->solve.local_sites[index];
     double *qa = multirate->qa + site->q, *va = multirate->va + site->v;
-    if (is_explicit(body)) {
+    if (spore_body_goes_alone(body)) {
       go_alone(multirate, i, NULL, q0, v0, q1, v1, result);
-      spore_body_drift(body, q1 + site->q, v1 + site->v, -multirate->h, qa, va);
+      spore_body_drift(body, q1 + site->q, v1 + site->v, -shift(multirate, body) * multirate->h, qa, va);
       continue;
     }
     memcpy(qa, q0 + site->q, body->q_count * sizeof *qa);
@@ -119,14 +127,15 @@ static bool all_zero(const double *values, size_t count) {
   return true;
 }
 
-/* Steps the explicit bodies again, with the forces of the terms. */
+/* Steps the bodies that go alone again, with the forces of the terms. */
 static void go_again(const Multirate *multirate, const double *q0, const double *v0, double *q1, double *v1,
                      SporeStepResult *result) {
   SporeWorld *world = multirate->world;
   for (size_t i = 0; i < multirate->island->kept_count; i++) {
     uint32_t index = world->solve.island_bodies[multirate->island->body_start + i];
     const SporeBody *body = &world->bodies[index];
-    if (!is_explicit(body) || all_zero(multirate->given + world->solve.local_sites[index].v, 3 * body->block_count))
+    if (!spore_body_goes_alone(body) ||
+        all_zero(multirate->given + world->solve.local_sites[index].v, 3 * body->block_count))
       continue;
     go_alone(multirate, i, multirate->given, q0, v0, q1, v1, result);
   }

@@ -136,10 +136,10 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   body->preconditioner.factor_ready = false;
 }
 
-void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
+void spore_body_forget_steps(SporeWorld *world, SporeBody *body) {
   body->preconditioner.matrix_c = 0;
   body->history.step_s = 0;
-  body->watch.started = false;
+  world->solve.watch.started = false;
   body->pause = body->pauses = body->hopeless = 0;
   spore_body_reset_choice(world, body);
 }

@@ -298,7 +298,6 @@ static uint32_t most_pulled(SporeWorld *world, SporeIsland *island) {
 static void make_safer(SporeWorld *world, SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    body->watch.started = false;
     if (spore_integrator(body->method.integrator)->damping == SPORE_DAMPING_FULL || body->model->type->rates) continue;
     body->method.integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
     island->made_safer = true;

@@ -77,12 +77,14 @@ typedef struct SporeBodyHistory {
   uint64_t step;
 } SporeBodyHistory;
 
-/* Energy of a body, watched for growth: see energy_watch.c. J. */
+/* Energy of all that physics moves, watched for growth: see energy_watch.c. J. */
+#define SPORE_STEPS_BETWEEN_LOOKS 64 /* explicit ones, between two looks at their energy or their error */
 typedef struct SporeEnergyWatch {
   bool started;
-  uint32_t steps;     /* since the watch began */
-  double own, height; /* kinetic plus strain energy, and energy of gravity, when the watch began */
-  double given;       /* by contacts and links since then */
+  uint32_t steps;        /* since the watch began */
+  SporeEnergy energy;    /* when the watch began */
+  double had, change;    /* at work: when the watch began; the largest change seen since */
+  double work, turnover; /* of what drives: sum of the work since then, and of its size */
 } SporeEnergyWatch;
 
 /* Rest and sleep of a body: see sleep.c. */
@@ -141,6 +143,7 @@ typedef struct SporeIsland {
   SporeTrouble trouble;            /* the worst that was met, corrected or not */
   uint32_t offender;               /* body in which the trouble was met */
   bool made_safer;                 /* this step took a safer integrator, for good */
+  double error;                    /* of an explicit step: how far two of half its size are from it; 0: not looked at */
   bool frictionless;               /* this step was taken without friction, since with friction none was found */
   const SporeIntegrator *stand_in; /* took this step for the bodies with other integrators; NULL: none */
   uint64_t mending_substeps;       /* substeps that recovery took; 0: it was not needed */
@@ -166,6 +169,7 @@ typedef struct SporeSolve {
   double
       *precondition; /* 9 doubles a block, in the order of the local vectors: diagonal blocks of the preconditioner */
   size_t sleeping_count; /* bodies asleep */
+  SporeEnergyWatch watch;
 } SporeSolve;
 
 void spore_solve_clear(SporeSolve *solve);
@@ -206,7 +210,7 @@ bool spore_world_create_factors(SporeWorld *world, SporeError *error);
 /* Makes the factor of the body anew, for its present pattern. False: no memory; the body has no factor then. */
 bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error);
 /* Forgets what earlier steps have left with the solver. To be called after the body was changed from outside. */
-void spore_body_forget_steps(const SporeWorld *world, SporeBody *body);
+void spore_body_forget_steps(SporeWorld *world, SporeBody *body);
 /* The same after the body's model was changed; also wakes the body. */
 void spore_body_changed_model(SporeWorld *world, uint32_t body);
 /* Starts the choice of a preconditioner anew. */
@@ -241,8 +245,12 @@ typedef struct SporeEffort {
  * many iterations as the scene allows. */
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
                                      SporeEffort *effort);
+/* Why the body would take its next step implicitly, though its method is explicit, by what touches and ties it now; and
+ * *resolving: see SporeMethod. To be called between steps: sorts the bodies into islands. */
+SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t body, size_t *resolving);
 
-/* multirate.c: one step of an island whose bodies move by several methods. */
+/* multirate.c: one step of an island whose bodies move by several methods, or have contacts or links that their
+ * explicit method does not resolve. */
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island);
 /* Doubles of scratch that this takes a block. */
 size_t spore_multirate_scratch(void);
@@ -270,9 +278,14 @@ bool spore_body_is_held(const SporeWorld *world, uint32_t index);
  * where the step is too large. */
 bool spore_body_check_step(const SporeWorld *world, uint32_t body, SporeError *error);
 
-/* energy_watch.c: false where a body of the island has gained more energy than contacts, links and gravity gave it;
- * sets island->offender to that body. */
-bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island);
+/* energy_watch.c. Whether the world has steps that may make energy. Bodies by the static method have no energy that is
+ * kept, and a world that has one is not watched. */
+bool spore_world_may_gain_energy(const SporeWorld *world);
+/* Begins the watch, if it must begin anew, from the state that the step begins in, once contacts and links are known.
+ */
+void spore_world_start_watch(SporeWorld *world);
+/* Stage: counts explicit steps that made energy out of nothing as unsolved, and makes a body safer that made much. */
+void spore_world_watch_energy(SporeWorld *world);
 
 /* island_system.c */
 /* Moves a body free of force for h seconds; q1 and v1 may be q0 and v. */

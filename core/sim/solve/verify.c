@@ -99,8 +99,6 @@ static void set_time(SporeEnd *end, double at_s) {
 /* Evaluates a copy of the contact, so that what the step left in it stays, by the law alone. */
 static void add_contact(const Equation *equation, const SporeContactTerm *contact, double *f) {
   SporeContactTerm copy = *contact;
-  copy.softening = (SporeSoftening){0, 0, 0};
-  copy.slack = 0;
   set_time(&copy.a, equation->at_s);
   set_time(&copy.b, equation->at_s);
   spore_contact_term_force(&copy, equation->system.world->solve.local_sites, equation->q, equation->v, equation->at_s,
@@ -114,7 +112,6 @@ static void add_spring(const Equation *equation, const SporeSpringTerm *spring, 
   SporeMapping mapping;
   uint32_t rows[2] = {0, SPORE_PATH_WIDTH}, blocks[SPORE_PATH_WIDTH];
   double weights[SPORE_PATH_WIDTH], point[3];
-  copy.softening = (SporeSoftening){0, 0, 0};
   set_time(&copy.a, equation->at_s);
   set_time(&copy.b, equation->at_s);
   if (copy.curve && !copy.b.prescribed) {

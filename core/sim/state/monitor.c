@@ -1,10 +1,13 @@
 /* Messages and counts of the monitor about steps that went wrong. */
 #include <assert.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
+
+#define ERROR_OF_STEP 0.25 /* of the speed: an explicit step and its halves may be so far apart */
 
 void spore_world_report(SporeWorld *world, const char *format, ...) {
   assert(format);
@@ -23,8 +26,6 @@ static const char *cause(SporeTrouble trouble) {
     return _("its forces or motion are not finite");
   case SPORE_TROUBLE_SPEED:
     return _("it moves faster than the maximum speed");
-  case SPORE_TROUBLE_ENERGY:
-    return _("its energy grows beyond what it was given");
   case SPORE_TROUBLE_NOT_CONVERGED:
     return _("its equations are not solved to tolerance");
   case SPORE_TROUBLE_NONE:
@@ -100,6 +101,20 @@ static void count_island(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
+/* The error of a step falls at least with the square of its size. */
+static void count_error(SporeWorld *world, const SporeIsland *island) {
+  SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start]];
+  spore_world_count_unsolved(world, world->solve.island_bodies[island->body_start], SPORE_UNSOLVED_HALVES,
+                             island->error);
+  if (body->reported.error || !isfinite(island->error)) return;
+  body->reported.error = true;
+  double h = world->solver.time_step / (double)island->substeps;
+  spore_world_report(world,
+                     _("%s: an explicit step of %.2g s and two of half its size are %.0f%% of its speed apart; take "
+                       "steps of %.2g s"),
+                     body->name, h, 100 * island->error, h * sqrt(0.5 * ERROR_OF_STEP / island->error));
+}
+
 /* Counts the bodies that this step did not move as the scene is written. */
 static void count_unsolved(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
@@ -108,7 +123,11 @@ static void count_unsolved(SporeWorld *world) {
     else if (body->method.integrator != body->method.chosen)
       spore_world_count_unsolved(world, b, SPORE_UNSOLVED_SAFER, 0);
   }
-  for (size_t i = 0; i < world->solve.island_count; i++) count_island(world, &world->solve.islands[i]);
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeIsland *island = &world->solve.islands[i];
+    count_island(world, island);
+    if (!(island->error <= ERROR_OF_STEP)) count_error(world, island);
+  }
 }
 
 void spore_world_report_islands(SporeWorld *world) {
@@ -122,7 +141,6 @@ void spore_world_report_islands(SporeWorld *world) {
     monitor->substeps += island->mending_substeps;
     monitor->not_finite += island->trouble == SPORE_TROUBLE_NOT_FINITE;
     monitor->too_fast += island->trouble == SPORE_TROUBLE_SPEED;
-    monitor->energy += island->trouble == SPORE_TROUBLE_ENERGY;
     monitor->not_converged += is_unsolved(world, island);
     if (island->kept_count < island->body_count) report_frozen(world, island);
     else report_mended(world, island);
@@ -160,7 +178,7 @@ void spore_world_report_budget(SporeWorld *world) {
 
 void spore_monitor_reset(SporeMonitor *monitor) {
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
-  monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget = 0;
+  monitor->not_converged = monitor->deep_contacts = monitor->over_budget = 0;
   monitor->held_inputs = monitor->shortened_forces = monitor->broken_links = monitor->lost_holds = 0;
   monitor->torn_springs = 0;
 }

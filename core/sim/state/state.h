@@ -42,6 +42,8 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
   SPORE_UNSOLVED_PASSED,   /* a contact did not hold the body; figure: its speed, m/s */
   SPORE_UNSOLVED_LEFT_OUT, /* contacts had no room; figure: number of contacts, of all bodies together */
+  SPORE_UNSOLVED_ENERGY,   /* energy out of nothing, as a share of the energy at work */
+  SPORE_UNSOLVED_HALVES,   /* how far a step and its halves are apart, as a share of the speed */
   SPORE_UNSOLVED_CAUSES
 } SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */
@@ -75,7 +77,6 @@ typedef struct SporeState {
 typedef enum SporeTrouble {
   SPORE_TROUBLE_NONE,
   SPORE_TROUBLE_NOT_CONVERGED,
-  SPORE_TROUBLE_ENERGY,
   SPORE_TROUBLE_SPEED,
   SPORE_TROUBLE_NOT_FINITE
 } SporeTrouble;
@@ -85,7 +86,7 @@ typedef struct SporeReported {
   bool deep;            /* the body lies too deep in another body */
   bool fast;            /* the body comes faster than contacts stop it */
   bool passed;          /* the body passed through another */
-  bool soft;            /* the body's contacts hold too little */
+  bool error;           /* the body's explicit step is too large for its motion */
   bool torn;            /* the body tears */
   bool notice;          /* what the body's model had to correct */
 } SporeReported;

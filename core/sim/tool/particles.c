@@ -76,6 +76,7 @@ static double *age_of(SporeBody *body, double *q, size_t particle) {
 
 static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 at, SporeVec3 velocity) {
   assert(particle < body->block_count);
+  world->solve.watch.started = false;
   spore_vec3_store(world->state.next_q + body->q_offset + 3 * particle, at);
   if (body->model->life_s > 0) *age_of(body, world->state.next_q + body->q_offset, particle) = 0;
   spore_vec3_store(world->state.next_v + body->v_offset + 3 * particle, velocity);
