@@ -69,7 +69,7 @@ typedef struct SporeDynamics {
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);
-  /* Keeps a copy of an equation that was solved, or was not, for whoever checks the step. */
+  /* Keeps a copy of an equation that was solved, or was not, for whoever checks the step. NULL: nobody does. */
   void (*keep)(void *data, const SporeEquation *equation);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
   double (*distance)(void *data, const double *x);

@@ -207,7 +207,8 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   SporeSystem system = stage_system(&stage);
   size_t evaluations = guess(&stage, change, system.scale_r, fields->tolerance * system.scale_x, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);
-  dynamics->keep(dynamics->data, &(SporeEquation){.c = c, .load = result.load, .qa = qa, .va = va, .v = v});
+  if (dynamics->keep)
+    dynamics->keep(dynamics->data, &(SporeEquation){.c = c, .load = result.load, .qa = qa, .va = va, .v = v});
   return (SporeStepResult){.converged = result.converged,
                            .newton_iterations = result.iterations,
                            .linear_iterations = result.linear_iterations,

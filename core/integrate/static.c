@@ -298,7 +298,8 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
     balance.iterations_most = most;
     result.converged = balance_forces(&balance, work, &result);
   }
-  dynamics->keep(dynamics->data, &(SporeEquation){.load = balance.wanted, .qa = balance.base, .v = balance.moved});
+  if (dynamics->keep)
+    dynamics->keep(dynamics->data, &(SporeEquation){.load = balance.wanted, .qa = balance.base, .v = balance.moved});
   history->step_s = result.converged ? balance.pseudo_step : 0;
   memcpy(q1, balance.base, dynamics->q_count * sizeof *q1);
   memcpy(v1, balance.moved, n * sizeof *v1);
