@@ -715,7 +715,8 @@ def every_model_by_every_integrator():
             text = scene.read_text().replace("<mechanical ", f'<mechanical integrator="{integrator}" ')
             chosen = file(f"soft/{model}-{integrator}.spore", text)
             subprocess.run(["xmllint", "--noout", "--relaxng", schema, chosen], check=True, capture_output=True)
-            done = spore("run", chosen, "--steps", 20, "--json", status=(0, 1))
+            done = spore("run", chosen, "--steps", 20, "--json", status=(0, 1, 2))
+            assert (done.returncode == 2) == (not done.stdout), done.stderr
             if not done.stdout:
                 assert f"{chosen}:4:" in done.stderr and done.stderr.count(";") >= 2, done.stderr
                 continue

@@ -214,7 +214,7 @@ static const Mistake mistakes[] = {
            "<body name=\"calm\" position=\"0 2 0\"><mechanical geometry=\"cube\" "
            "integrator=\"implicit_euler\"><rigid_body/>"
            "</mechanical><collision spheres=\"ball\" stiffness=\"1e7\"/></body>\n</bodies>\n"),
-     {"warning 6:1: \"high\" comes at 4.2 m/s", "warning 7:1: \"calm\" comes at 4.2 m/s"}},
+     {"warning 6:1: \"high\" comes at 4.43 m/s", "warning 7:1: \"calm\" comes at 4.2 m/s"}},
     {"error-tolerance-unused",
      SCENE("<solver error_tolerance=\"1e-6\"/>\n" ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n"),
      {"warning 2:1: error_tolerance is not used"}},

@@ -46,8 +46,10 @@ static void case_27(void) {
   g_assert_cmpfloat(most, <, 1.5 * start);
   g_assert_true(rig_said(world, "blood: particles are so near each other"));
   g_assert_cmpuint(spore_world_monitor(world)->message_count, ==, 1); /* once */
-  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 1);
-  g_assert_nonnull(strstr(spore_world_unsolved(world, 0).cause, "its model is not meant for"));
+  bool is_said = false; /* the energy that capped forces make is said too */
+  for (size_t i = 0; i < spore_world_unsolved_count(world); i++)
+    is_said |= strstr(spore_world_unsolved(world, i).cause, "its model is not meant for") != NULL;
+  g_assert_true(is_said);
   g_free(q);
   g_free(v);
   g_free(f);

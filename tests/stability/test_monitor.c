@@ -151,7 +151,7 @@ static void test_deep_contact(void) {
   g_test_message("%u deep contacts; %s", (unsigned)monitor->deep_contacts, rig_last_message(world));
   g_assert_cmpuint(monitor->deep_contacts, >, 0);
   g_assert_cmpuint(monitor->message_count, ==, 1);
-  g_assert_true(rig_said(world, "left: is 0.011 m deep in right"));
+  g_assert_true(rig_said(world, "left: overlaps right by 0.011 m"));
   g_assert_cmpfloat(spore_world_q(world, 1)[0] - spore_world_q(world, 0)[0], >=, 0.02);
   rig_free(rig);
 }

@@ -5,6 +5,8 @@
 
 #include "core/sim/solve/island_system.h"
 
+#define HOPELESS_ITERATIONS 10 /* a part of a step */
+
 /* Limits the iterations of the next part of the step, and leaves one for each part behind it. */
 static void limit_iterations(const SporeEffort *effort, size_t behind, const SporeSolverFields *solver,
                              SporeSolverFields *fields) {
@@ -171,7 +173,11 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     multirate.residual = whole.residual;
     return multirate;
   }
-  return spore_island_advance(world, island, method(world, island), island->substeps, NULL);
+  /* Where the steps before were work for nothing, this one may take few iterations: it costs little more than one that
+   * is solved. */
+  SporeEffort effort = {.iterations = HOPELESS_ITERATIONS * island->substeps, .hopeless = HUGE_VAL};
+  bool hopeless = spore_island_is_hopeless(world, island);
+  return spore_island_advance(world, island, method(world, island), island->substeps, hopeless ? &effort : NULL);
 }
 
 /* Whether a model of the island keeps something of where its forces were evaluated: then an evaluation elsewhere would

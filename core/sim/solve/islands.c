@@ -251,6 +251,17 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
   island->v1 = world->solve.local_v1 + island->v_start;
 }
 
+bool spore_body_is_hopeless(const SporeWorld *world, const SporeBody *body) {
+  return body->hopeless > 0 && world->state.step <= body->hopeless_step + body->pauses + 1;
+}
+
+bool spore_island_is_hopeless(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (spore_body_is_hopeless(world, &world->bodies[world->solve.island_bodies[island->body_start + i]])) return true;
+  return false;
+}
+
 bool spore_world_create_solve(SporeWorld *world) {
   assert(world->state.v_count % 3 == 0);
   SporeSolve *solve = &world->solve;

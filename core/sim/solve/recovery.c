@@ -219,27 +219,17 @@ static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t 
   return !effort.given_up && stands(world, island, MISS_OF_LOAD);
 }
 
-/* Whether a hopeless step would now be the next one in a row, pauses apart. */
-static bool is_row(const SporeWorld *world, const SporeBody *body) {
-  return body->hopeless > 0 && world->state.step <= body->hopeless_step + body->pauses + 1;
-}
-
-static bool was_hopeless(const SporeWorld *world, const SporeIsland *island) {
-  for (size_t i = 0; i < island->kept_count; i++)
-    if (is_row(world, &world->bodies[world->solve.island_bodies[island->body_start + i]])) return true;
-  return false;
-}
-
-/* Counts a hopeless step for all bodies of the island. True: it is one too many in a row. */
+/* Counts a hopeless step for all bodies of the island. True: it is one too many in a row. A body that comes apart may
+ * meet many such steps, which end when it is apart. */
 static bool despairs(SporeWorld *world, const SporeIsland *island) {
   uint64_t step = world->state.step;
   bool despairs = false;
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    if (!is_row(world, body)) body->hopeless = 0;
+    if (!spore_body_is_hopeless(world, body)) body->hopeless = 0;
     if (body->hopeless == 0 || step > body->hopeless_step) body->hopeless++;
     body->hopeless_step = step;
-    despairs |= body->hopeless >= HOPELESS_MOST;
+    despairs |= body->hopeless >= HOPELESS_MOST && !body->altered;
   }
   return despairs;
 }
@@ -253,7 +243,7 @@ static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   Best best = {.worth = WORTH_NOTHING, .residual = HUGE_VAL, .least = HUGE_VAL};
   remember_best(world, island, &best);
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
-  size_t iterations = (was_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
+  size_t iterations = (spore_island_is_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
   SporeEffort effort = {.iterations = iterations};
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
     if (spore_cancel_asked(world->cancel)) return true;
@@ -310,14 +300,23 @@ static bool seeks_balance(SporeWorld *world, const SporeIsland *island) {
   return island->integrator == SPORE_INTEGRATOR_STATIC && spore_island_system_is_held(&system);
 }
 
+/* A balance that was not found is left as far on the way to it as the island got, but not where that made energy: then
+ * the island stays where it was. */
+static void stay(SporeIsland *island) {
+  memcpy(island->q1, island->q0, island->q_count * sizeof *island->q1);
+  memset(island->v1, 0, island->v_count * sizeof *island->v1);
+}
+
 /* In the end island->trouble is the worst trouble, and island->offender the body that had the first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   assert(island->offender < world->body_count);
   bool paused = pauses(world, island);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
-  /* It stays as far on its way to balance as it got. */
   bool balance = seeks_balance(world, island);
-  if (balance && island->trouble == SPORE_TROUBLE_NOT_CONVERGED) return;
+  if (balance && island->trouble == SPORE_TROUBLE_NOT_CONVERGED) {
+    if (gained_energy(world, island)) stay(island);
+    return;
+  }
   SporeTrouble worst = island->trouble;
   uint32_t met = island->offender, broken = broken_body(world, island);
   while (island->kept_count > 0) {

@@ -265,6 +265,11 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island);
 /* Corrects a step in trouble, or accepts it. island->trouble is the worst that was met, also after it was corrected. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
 
+/* islands.c: whether a hopeless step (see recovery.c) of the body, or of a body of the island, would now be the next
+ * one in a row, pauses apart. */
+bool spore_body_is_hopeless(const SporeWorld *world, const SporeBody *body);
+bool spore_island_is_hopeless(const SporeWorld *world, const SporeIsland *island);
+
 /* freezing.c */
 /* Takes the body out of the island for good; for its terms it stands still. The attempts so far were made with the
  * body, so they are of no use, and the island's trouble says so. */
