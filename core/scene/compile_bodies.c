@@ -202,7 +202,8 @@ static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, Spo
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = model_object(body);
   SporeLodDescription *levels = &description->lod;
   SporeFidelityFields fields;
-  if (!fidelity) return TRUE;
+  /* A model that the role leaves unused leaves its levels unused; check says so. */
+  if (!fidelity || (model && !description->model)) return TRUE;
   spore_object_fields(fidelity, &fields);
   levels->first = (SporeLodGrade)fields.level;
   levels->tolerance = fields.level_tolerance;

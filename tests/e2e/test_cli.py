@@ -628,6 +628,14 @@ def run_reports_the_contract():
 
 
 @check
+def levels_of_a_body_that_does_not_move_are_not_used():
+    """A body with levels whose role is changed so that physics does not move it runs without them."""
+    for role in ("unmovable", "active"):
+        answer = report("run", SCENES / "levels.spore", "--steps", 2, "--set", f"bodies/ovary_left/role={role}")
+        assert "ovary_left" not in {level["name"] for level in answer.get("levels", [])}, answer
+
+
+@check
 def run_measures_what_is_solved():
     """A status of 0 means a residual within the tolerance, measured; one above by rounding alone is told as such."""
     scene = str(SCENES / "suture.spore")

@@ -52,6 +52,9 @@ bool spore_lod_make(SporeWorld *world, SporeBody *body, const SporeBodyDescripti
   assert(!body->lod);
   SporeModel *const *model = from->lod.model;
   if (!model[SPORE_LOD_COARSE] && !model[SPORE_LOD_MEDIUM]) return true;
+  if (!body->model)
+    return refuse(body, model[SPORE_LOD_COARSE] ? SPORE_LOD_COARSE : SPORE_LOD_MEDIUM,
+                  _("the body does not move by physics, so that it has no levels; take them out"), error);
   SporeLod *levels = body->lod = SPORE_NEW(SporeLod);
   if (!levels) return no_memory(error);
   levels->tolerance = from->lod.tolerance;
