@@ -72,6 +72,7 @@ static int run_command(const Command *command, const SporeGeneratorType *generat
 static void close_output(void) {
   gboolean failed = ferror(stdout) != 0;
   if (fflush(stdout) == 0 && !failed) return;
+  if (spore_cli_interrupted()) _exit(SPORE_EXIT_INTERRUPTED); /* a signal may cut a write short */
   spore_cli_usage(_("standard output cannot be written; free some space, or send it to another place"));
   _exit(SPORE_EXIT_INPUT);
 }

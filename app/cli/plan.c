@@ -254,12 +254,12 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   g_autoptr(SporeRun) run = spore_run_open(cli, argv[1], &options, 1, &error);
   spore_scene_options_clear(&options);
   if (!run) return spore_cli_fail(error);
+  spore_plan_report_pins(cli, run); /* as they hold at time 0 */
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   report(cli, run->document, run->simulation->world, measure);
   spore_plan_report_mapping(cli, run);
-  spore_plan_report_pins(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;

@@ -119,12 +119,14 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   SporeWorld *world = run->simulation->world;
   g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
   if (!levels) return spore_cli_fail(error);
-  Recording recording = {0};
-  if (options->record && !add_channels(world, &recording.track))
-    return spore_cli_usage(_("--record: not enough memory"));
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   gint64 steps = 0;
   if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
+  Recording recording = {0};
+  if (options->record && !add_channels(world, &recording.track)) {
+    spore_track_clear(&recording.track);
+    return spore_cli_usage(_("--record: not enough memory"));
+  }
   g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
   if (pace) spore_world_set_budget(world, 1e6 * dt_s);
   SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL);

@@ -194,14 +194,15 @@ static void read_view(Gltf *gltf, gsize index) {
 
 static void read_accessor(Gltf *gltf, gsize index) {
   gsize count = 0;
-  guint64 offset;
+  guint64 offset, elements = 0;
   Key key;
   if (!take(&gltf->json, '{')) fail_json(&gltf->json);
   while (next_member(&gltf->json, &count, &key)) {
     if (is_key(gltf, key, "byteOffset")) read_whole(gltf, ACCESSORS, index, "byteOffset", 0, G_MAXUINT32, &offset);
-    else if (is_key(gltf, key, "count"))
-      read_whole(gltf, ACCESSORS, index, "count", 1, 3 * (guint64)SPORE_MESH_MAXIMUM, &gltf->elements[index]);
-    else skip_value(&gltf->json, 2);
+    else if (is_key(gltf, key, "count")) {
+      read_whole(gltf, ACCESSORS, index, "count", 1, 3 * (guint64)SPORE_MESH_MAXIMUM, &elements);
+      gltf->elements[index] = MAX(gltf->elements[index], elements); /* which of two the importer takes is not known */
+    } else skip_value(&gltf->json, 2);
   }
 }
 

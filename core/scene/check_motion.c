@@ -200,8 +200,10 @@ static void check_impacts(const Start *start, const SporeSimulation *simulation)
     double comes = sqrt(stopping.moves * stopping.moves + fall);
     if (stopping.moves <= NOTED_SPEED * stopping.stops && comes <= NOTED_FALL * stopping.stops) continue;
     const char *other = spore_world_body_name(simulation->world, stopping.other);
-    g_autofree char *stiffer = g_strdup_printf(_("make contacts %.3g times as stiff, or let it come more slowly"),
-                                               pow(comes / stopping.stops, 2));
+    double factor = pow(comes / stopping.stops, 2); /* not finite where contacts have no stiffness */
+    g_autofree char *stiffer =
+        isfinite(factor) ? g_strdup_printf(_("make contacts %.3g times as stiff, or let it come more slowly"), factor)
+                         : g_strdup(_("give contacts a stiffness, or let it come more slowly"));
     gboolean stops = comes <= stopping.stops;
     spore_check_say(
         start->check, stops ? SPORE_NOTE : SPORE_WARNING, body, stops ? _("make contacts stiffer for more") : stiffer,

@@ -41,18 +41,15 @@ static bool has_holds(const SporeWorld *world) {
   return false;
 }
 
-/* Whether some step may solve equations: that of an implicit body, or of bodies with methods of their own that meet. In
- * place of other explicit steps implicit Euler may stand, where something is fast or goes wrong; but not of particles.
- */
+/* Whether some step may solve equations: that of an implicit body, or of explicit ones whose contacts or links their
+ * step does not resolve. Implicit Euler may also stand in where an explicit step goes wrong; but not of particles. */
 static bool may_solve(const SporeWorld *world) {
-  size_t passive = 0;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_PASSIVE) continue;
     if (spore_integrator(body->method.chosen)->implicit || !body->model->type->rates) return true;
-    passive++;
   }
-  return passive > 1;
+  return has_passive(world) && has_terms(world);
 }
 
 /* Items: what a stage works on. */

@@ -650,6 +650,11 @@ def run_measures_what_is_solved():
     stages = [stage["name"] for stage in stiff["stages"]]
     assert stages.index("integrate") < stages.index("verify") < stages.index("accept")
     plan = {stage["name"]: stage for stage in report("plan", str(SCENES / "table1-fluid.spore"))["stages"]}
+    assert plan["verify"]["included"]  # contacts that the particles' step does not resolve are implicit
+    soft_ball()
+    alone = file("soft/alone.spore", '<spore version="1.0"><assets><mesh name="m" file="ball.off"/></assets><bodies><body name="b">'
+                 '<mechanical geometry="m"><lennard_jones particles="60"/></mechanical></body></bodies></spore>')
+    plan = {stage["name"]: stage for stage in report("plan", alone)["stages"]}
     assert not plan["verify"]["included"] and plan["verify"]["reason"] == "no step solves equations"
 
 

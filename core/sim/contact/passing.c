@@ -190,7 +190,9 @@ static void watch_impact(SporeWorld *world, const SporeContactTerm *term, const 
   SporeBody *b, *a = first_named(world, contact->a, contact->b, &b);
   if (a->reported.fast) return;
   a->reported.fast = true;
-  double needed = term->law.stiffness * (speed / stops) * (speed / stops);
+  double w = pair_inverse_mass(world, contact->a, contact->b, term->normal);
+  double needed = stops > 0 && term->law.stiffness > 0 ? term->law.stiffness * (speed / stops) * (speed / stops)
+                                                       : stiffness_for(&term->law, w, radius, 0, speed);
   spore_world_report(world,
                      _("%s: meets %s at %.3g m/s, and their contact stops it up to %.3g m/s; take a contact stiffness "
                        "of %.3g N/m for the two instead of %.3g, or a lower speed"),

@@ -159,6 +159,7 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
 }
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
+  island->stand_in = NULL;
   if (island->multirate) {
     island->history.step_s = 0;
     SporeStepResult multirate = spore_island_advance_multirate(world, island);
@@ -260,6 +261,8 @@ static void integrate_island(void *data, size_t index) {
   }
   spore_island_examine(world, island);
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
+  /* The error is that of a step that is not kept. */
+  if (island->mending_substeps > 0 || island->kept_count < island->body_count) island->error = 0;
   if (spore_cancel_asked(world->cancel)) return;
   spore_island_remember(world, island);
   island->rests = spore_island_rests(world, island);

@@ -216,7 +216,14 @@ static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t 
   for (size_t i = 0; i < island->contact_count; i++)
     world->contact.terms[world->contact.order[island->contact_start + i]].law.friction = 0;
   try_again(world, island, SUBSTEPS_MAXIMUM, &effort);
-  return !effort.given_up && stands(world, island, MISS_OF_LOAD);
+  if (!effort.given_up && stands(world, island, MISS_OF_LOAD)) return true;
+  island->frictionless = false;
+  for (size_t i = 0; i < island->contact_count; i++) {
+    SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
+    term->law.friction = fmin(world->bodies[term->a.body].collision.fields.friction,
+                              world->bodies[term->b.body].collision.fields.friction);
+  }
+  return false;
 }
 
 /* Counts a hopeless step for all bodies of the island. True: it is one too many in a row. A body that comes apart may
