@@ -7,7 +7,8 @@ size_t spore_world_pull_index(const SporeWorld *world, uint32_t body) {
   return world->links.term_count + world->links.hold_count + body;
 }
 
-/* A mapping for each pull: a rigid body needs room for one point of its frame, nodes need none. */
+/* A mapping for each pull: a rigid body needs room for one point of its frame. Nodes need none, but may come while the
+ * world runs: the mapping counts all that there may be. */
 bool spore_world_create_pulls(SporeWorld *world) {
   const double origin[3] = {0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
@@ -16,7 +17,7 @@ bool spore_world_create_pulls(SporeWorld *world) {
     SporeMapping *end_a = &world->links.mappings[2 * index], *end_b = end_a + 1;
     if (!model) continue;
     bool made = spore_model_is_rigid(model) ? spore_mapping_init_points(end_a, SPORE_MAPPING_RIGID, origin, 1, NULL)
-                                            : spore_mapping_init_identity(end_a, model->node_count);
+                                            : spore_mapping_init_identity(end_a, model->block_room);
     if (!made || !spore_mapping_init_points(end_b, SPORE_MAPPING_FIXED, origin, 1, NULL)) return false;
     world->links.springs[index].a = (SporeEnd){.mapping = end_a, .body = (uint32_t)b};
     world->links.springs[index].b = (SporeEnd){.mapping = end_b, .body = SPORE_NO_BODY};

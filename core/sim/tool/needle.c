@@ -148,7 +148,7 @@ static bool tie_thread(SporeWorld *world, SporeNeedle *needle, const SporeToolDe
   term->b = (SporeEnd){.mapping = mapping + 1, .body = needle->tool.bodies[0]};
   double damping = 2 * sqrt(needle->fields.stiffness * body->total_mass);
   term->law = (SporeSpring){.stiffness = needle->fields.stiffness, .damping = damping};
-  return spore_mapping_init_identity(mapping, body->model->node_count) &&
+  return spore_mapping_init_identity(mapping, body->model->block_room) &&
          spore_mapping_init_points(mapping + 1, SPORE_MAPPING_RIGID, swage, 1, NULL);
 }
 
