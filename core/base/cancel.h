@@ -14,6 +14,7 @@ typedef struct SporeCancel {
   void *data;
 } SporeCancel;
 
+/* Whether the work is to end. NULL: never. */
 static inline bool spore_cancel_asked(const SporeCancel *cancel) { return cancel && cancel->asked(cancel->data); }
 
 #endif
