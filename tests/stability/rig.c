@@ -299,3 +299,16 @@ SporeToolDescription *rig_tool(Rig *rig, const SporeToolType *type, const char *
 }
 
 void *rig_tool_fields(const SporeToolDescription *tool) { return (void *)(uintptr_t)tool->fields; }
+
+static bool mover_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
+                           SporeDeviceState *state) {
+  const RigMover *mover = (const RigMover *)device;
+  *state = (SporeDeviceState){.t_ns = (uint64_t)(time_s * 1e9), .orientation = {1, 0, 0, 0}};
+  spore_vec3_store(state->position, spore_vec3_add_scaled(mover->from, time_s, mover->velocity));
+  spore_vec3_store(state->velocity, mover->velocity);
+  return true;
+}
+
+static void mover_close(SporeDevice *device) {}
+
+const SporeDeviceType rig_mover_type = {.name = "mover", .doc = "", .exchange = mover_exchange, .close = mover_close};

@@ -71,4 +71,11 @@ const char *rig_last_message(const SporeWorld *world);
 /* True when a message that is still kept begins with `start`. */
 gboolean rig_said(const SporeWorld *world, const char *start);
 
+/* A device that moves from `from` at a steady velocity. */
+typedef struct RigMover {
+  SporeDevice base; /* of rig_mover_type */
+  SporeVec3 from, velocity;
+} RigMover;
+extern const SporeDeviceType rig_mover_type;
+
 #endif

@@ -103,26 +103,6 @@ static void case_15(void) {
   }
 }
 
-/* A device that moves from `from` at a steady velocity. */
-typedef struct Mover {
-  SporeDevice base;
-  SporeVec3 from, velocity;
-} Mover;
-
-static bool mover_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
-                           SporeDeviceState *state) {
-  const Mover *mover = (const Mover *)device;
-  *state = (SporeDeviceState){.t_ns = (uint64_t)(time_s * 1e9), .orientation = {1, 0, 0, 0}};
-  spore_vec3_store(state->position, spore_vec3_add_scaled(mover->from, time_s, mover->velocity));
-  spore_vec3_store(state->velocity, mover->velocity);
-  return true;
-}
-
-static void mover_close(SporeDevice *device) {}
-
-static const SporeDeviceType mover_type = {
-    .name = "mover", .doc = "", .exchange = mover_exchange, .close = mover_close};
-
 /* Case 18: a tool of 5 mm at 10 m/s against a sheet of 2 mm spheres: at 2 ms it moves 20 mm a step. */
 static void case_18(void) {
   static const double steps[] = {5e-4, 1e-3, 2e-3, 5e-3};
@@ -136,7 +116,7 @@ static void case_18(void) {
         spore_vec3(-0.02, -0.02, 0);
     SporeBodyDescription *tool = rig_active(rig, "tool", rig_sphere(rig, 0.0025));
     tool->pose.position = spore_vec3(0.0003, 0.0004, 0.0517);
-    Mover mover = {{&mover_type}, tool->pose.position, spore_vec3(0, 0, -10)};
+    RigMover mover = {{&rig_mover_type}, tool->pose.position, spore_vec3(0, 0, -10)};
     SporeWorld *world = rig_build(rig);
     spore_world_set_device(world, 1, &mover.base);
     size_t contacts = 0;

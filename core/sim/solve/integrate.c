@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "core/sim/solve/island_system.h"
 
 #define HOPELESS_ITERATIONS 10 /* a part of a step */
@@ -207,37 +208,30 @@ static void take_halves(SporeWorld *world, SporeIsland *island) {
   spore_island_gather(world, island);
 }
 
-/* (x.M x)^1/2 for x = a - b; b: NULL for 0. */
-static double speed_norm(const SporeWorld *world, const SporeIsland *island, const double *a, const double *b) {
-  double sum = 0;
+/* (v.M v)^1/2 of a velocity of the island. */
+static double speed_norm(const SporeWorld *world, const SporeIsland *island, const double *v) {
+  double energy = 0;
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t index = world->solve.island_bodies[island->body_start + i];
-    const SporeBody *body = &world->bodies[index];
-    size_t at = world->solve.local_sites[index].v;
-    const double *mass = world->state.mass + 3 * body->v_offset;
-    for (size_t k = 0; k < body->block_count; k++, at += 3, mass += 9) {
-      SporeVec3 x = spore_vec3_load(a + at);
-      if (b) x = spore_vec3_sub(x, spore_vec3_load(b + at));
-      double turned[3], plain[3];
-      spore_vec3_store(plain, x);
-      spore_blocks_apply(mass, 1, plain, turned);
-      sum += spore_vec3_dot(x, spore_vec3_load(turned));
-    }
+    energy += spore_body_kinetic_energy(world, &world->bodies[index], v + world->solve.local_sites[index].v);
   }
-  return sqrt(sum);
+  return sqrt(2 * energy);
 }
 
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 
-/* How far the step and its halves are apart, against the speed and what gravity gives in a step. */
-static double error_of_step(const SporeWorld *world, const SporeIsland *island) {
+/* How far the step and its halves are apart, against the speed and what gravity gives in a step. Overwrites the halves.
+ */
+static double error_of_step(SporeWorld *world, const SporeIsland *island) {
   assert(island->attempts > 1);
   double h = world->solver.time_step, mass = 0;
   for (size_t i = 0; i < island->kept_count; i++)
     mass += world->bodies[world->solve.island_bodies[island->body_start + i]].total_mass;
-  double speed = fmax(speed_norm(world, island, island->v0, NULL), speed_norm(world, island, island->v1, NULL));
+  double speed = fmax(speed_norm(world, island, island->v0), speed_norm(world, island, island->v1));
   double least = h * island->gravity_momentum + SMALLEST_SPEED * sqrt(mass);
-  return speed_norm(world, island, island->v1, world->solve.best_v + island->v_start) / (speed + least);
+  double *apart = world->solve.best_v + island->v_start;
+  spore_vector_add_scaled(island->v_count, apart, -1, island->v1);
+  return speed_norm(world, island, apart) / (speed + least);
 }
 
 static void integrate_island(void *data, size_t index) {

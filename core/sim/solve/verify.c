@@ -2,7 +2,7 @@
  *
  * An integrator keeps the equations that it solved last, M (v - va) = c f(drift(qa, v, c), v), or f(q, v) = 0, with its
  * answer. Stage `verify` evaluates them again, by code that the solver does not use: forces of the models by `force`
- * instead of `force_along`, contacts one by one instead of in lanes, and all laws without softening and slack. Where a
+ * instead of `force_along`, contacts one by one instead of in lanes. Where a
  * stage ends the step, drift(qa, v, c) is the accepted state. Nothing of the world is written but the verdict, and the
  * inertia of frames, which `advance` sets again.
  *
