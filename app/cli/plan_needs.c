@@ -83,8 +83,8 @@ static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, 
 
 void spore_plan_report_files_left_out(SporeCli *cli, const SporeRun *run) {
   g_autoptr(GArray) needs = spore_document_asset_needs(run->document);
-  report_files(cli, needs, SPORE_ASSET_SOURCE, _("others were generated from it, and a run reads those alone"));
-  report_files(cli, needs, SPORE_ASSET_UNUSED, _("nothing names it"));
+  report_files(cli, needs, SPORE_ASSET_SOURCE, _("sources: a run reads what was generated from them"));
+  report_files(cli, needs, SPORE_ASSET_UNUSED, _("nothing names them"));
 }
 
 /* Libraries. */
