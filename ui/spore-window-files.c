@@ -76,6 +76,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_outliner_set_document(SPORE_OUTLINER(self->outliner), self->document);
   spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
   spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
+  spore_plan_set_document(SPORE_PLAN(self->plan), self->document);
   gtk_widget_hide(self->message_bar);
   player_changed(self);
 }

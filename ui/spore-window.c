@@ -109,6 +109,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, outliner);
   gtk_widget_class_bind_template_child(widget, SporeWindow, viewport);
   gtk_widget_class_bind_template_child(widget, SporeWindow, inspector);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, plan);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
@@ -128,6 +129,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_OUTLINER);
   g_type_ensure(SPORE_TYPE_VIEWPORT);
   g_type_ensure(SPORE_TYPE_INSPECTOR);
+  g_type_ensure(SPORE_TYPE_PLAN);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-window.ui");

@@ -1274,6 +1274,32 @@ def sleep_lateness_and_trouble_are_shown():
 
 
 @check
+def inspector_follows_the_scene():
+    """the inspector shows the settings of the scene that was opened, and changes that one."""
+    with start(write_scene("settings", "<rigid_body/>")) as editor:
+        step = lambda: editor.find("text", "^Time step$", showing=False)
+        ui.wait(lambda: editor.text_of(step()).startswith("0.004"), "the time step of the scene")
+        editor.set_entry(step(), "0.003")
+        ui.wait(lambda: editor.enabled("undo"), "the change")
+        assert 'time_step="0.003"' in saved(editor, "settings")
+
+
+@check
+def plan_of_the_step():
+    """the tab Plan says what a step consists of, measures it beside itself unpruned, and follows the scene."""
+    with start(write_scene("planned", "<rigid_body/>")) as editor:
+        editor.press(editor.find("radio button", "^Plan$"))
+        editor.find("table cell", "^integrate$")
+        editor.find("table cell", "no body is driven by a device or a track")
+        editor.find("label", r"^A step: about \d+ µs of")
+        editor.press(editor.find("push button", "^Measure$"))
+        editor.find("label", r"with nothing left out [\d.]+ µs \([\d.]+ times\), the same to the bit$")
+        editor.act("add-pin")
+        editor.find("table cell", "^links other than pins$")
+        editor.find("label", r"^A step: about \d+ µs of")
+
+
+@check
 def without_graphics():
     """without OpenGL the viewport says why, and scenes are built and run all the same."""
     with start(__EGL_VENDOR_LIBRARY_FILENAMES="/nonexistent") as editor:

@@ -358,6 +358,8 @@ void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *doc
   self->document = g_object_ref(document);
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(queue_rebuild), self, G_CONNECT_SWAPPED);
+  spore_section_list_begin(sections_of(self)); /* rows of the document before are not kept */
+  spore_section_list_end(sections_of(self));
   rebuild(self);
 }
 

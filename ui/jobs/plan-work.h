@@ -1,0 +1,22 @@
+/* What a scene needs of a step, and what it leaves out, as data for a SporeJob. No GTK. */
+#ifndef SPORE_UI_JOBS_PLAN_WORK_H
+#define SPORE_UI_JOBS_PLAN_WORK_H
+
+#include "core/base/progress.h"
+#include "core/measure/pruning.h"
+#include "core/scene/compile.h"
+
+#define SPORE_PLAN_WORK_STEPS 200 /* that a measured plan takes */
+
+typedef struct SporePlanWork {
+  SporeDocument *document;                /* a copy of the scene, the worker's own */
+  guint64 revision;                       /* of the scene then */
+  gboolean measured;                      /* beside itself with nothing left out */
+  SporeSimulation *simulation, *unpruned; /* out; unpruned: NULL where nothing is measured */
+  SporePruning pruning;                   /* out, where measured */
+} SporePlanWork;
+SporePlanWork *spore_plan_work_new(const SporeDocument *document, gboolean measured);
+gboolean spore_plan_work_run(gpointer work, const SporeProgress *progress, GError **error);
+void spore_plan_work_free(gpointer work);
+
+#endif
