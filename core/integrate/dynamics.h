@@ -20,7 +20,13 @@ typedef struct SporeEquation {
   double c;                  /* s */
   double load;               /* norm (r.M^-1 r)^1/2 that the tolerance of the residual r is a part of */
   const double *qa, *va, *v; /* va: NULL where c = 0 */
+  bool evaluated;            /* the forces that the solver evaluated last were left where `evaluation` says */
 } SporeEquation;
+
+/* Room for the last evaluation of an equation's forces: at q and v, the forces f. */
+typedef struct SporeEvaluation {
+  double *q, *v, *f;
+} SporeEvaluation;
 
 typedef struct SporeDynamics {
   void *data;
@@ -69,6 +75,9 @@ typedef struct SporeDynamics {
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);
+  /* Where a solver leaves each evaluation of the forces of the equation that it keeps next, over the one before. False:
+   * nobody asks. May be NULL: false. */
+  bool (*evaluation)(void *data, SporeEvaluation *evaluation);
   /* Keeps a copy of an equation that was solved, or was not, for whoever checks the step. NULL: nobody does. */
   void (*keep)(void *data, const SporeEquation *equation);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */

@@ -15,9 +15,11 @@ typedef struct Stage {
   const double *qa, *va;
   double c;
   size_t linear_iterations;
-  double *q, *v;        /* where the force is evaluated */
+  double *q, *v;        /* where it is linearised */
   double *from;         /* as q: of the linearisation before */
   double *force, *work; /* 3 block_count each */
+  bool kept;            /* the last evaluation is for others too */
+  SporeEvaluation last; /* its q and f; its v only where it is kept */
   double *linear;       /* SPORE_BICGSTAB_SCRATCH vectors, which is the more */
 } Stage;
 
@@ -25,11 +27,13 @@ static void residual(void *data, const double *v, double *r) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
   size_t n = 3 * dynamics->block_count;
-  dynamics->drift(dynamics->data, stage->qa, v, stage->c, stage->q, stage->v);
-  dynamics->force(dynamics->data, stage->q, v, stage->force);
+  const SporeEvaluation *last = &stage->last;
+  dynamics->drift(dynamics->data, stage->qa, v, stage->c, last->q, stage->v);
+  dynamics->force(dynamics->data, last->q, v, last->f);
+  if (stage->kept) memcpy(last->v, v, n * sizeof *v);
   for (size_t i = 0; i < n; i++) stage->work[i] = v[i] - stage->va[i];
   dynamics->mass_multiply(dynamics->data, stage->work, r);
-  for (size_t i = 0; i < n; i++) r[i] = stage->c * stage->force[i] - r[i];
+  for (size_t i = 0; i < n; i++) r[i] = stage->c * last->f[i] - r[i];
 }
 
 static void linearise(void *data, const double *v, const double *from) {
@@ -203,12 +207,15 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.work = scratch + 4 * n;
   stage.from = scratch + 5 * n;
   stage.linear = scratch + 7 * n;
+  stage.last = (SporeEvaluation){.q = stage.q, .f = stage.force};
+  stage.kept = dynamics->evaluation && dynamics->evaluation(dynamics->data, &stage.last);
   double *r = scratch + (7 + SPORE_BICGSTAB_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
   size_t evaluations = guess(&stage, change, system.scale_r, fields->tolerance * system.scale_x, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);
   if (dynamics->keep)
-    dynamics->keep(dynamics->data, &(SporeEquation){.c = c, .load = result.load, .qa = qa, .va = va, .v = v});
+    dynamics->keep(dynamics->data,
+                   &(SporeEquation){.c = c, .load = result.load, .qa = qa, .va = va, .v = v, .evaluated = stage.kept});
   return (SporeStepResult){.converged = result.converged,
                            .newton_iterations = result.iterations,
                            .linear_iterations = result.linear_iterations,

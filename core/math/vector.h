@@ -13,6 +13,7 @@ SPORE_DECLARE_KERNEL(bool, spore_vector_within, size_t n, const double *x, doubl
 SPORE_DECLARE_KERNEL(void, spore_vector_move, size_t n, double *y, const double *x, double s, const double *z);
 SPORE_DECLARE_KERNEL(void, spore_nodes_weigh, size_t nodes, double *y, const double *weight, const double *x);
 SPORE_DECLARE_KERNEL(void, spore_nodes_kick, size_t nodes, double *y, double s, const double *x, const double *weight);
+SPORE_DECLARE_KERNEL(double, spore_nodes_dual, size_t nodes, const double *x, const double *weight);
 SPORE_DECLARE_KERNEL(void, spore_nodes_pull, size_t nodes, double *y, const double *weight, const double g[3]);
 
 static inline double spore_vector_dot(size_t n, const double *a, const double *b) {
@@ -43,6 +44,10 @@ static inline void spore_nodes_weigh(size_t nodes, double *y, const double *weig
 /* y += s x / weight */
 static inline void spore_nodes_kick(size_t nodes, double *y, double s, const double *x, const double *weight) {
   SPORE_KERNEL(spore_nodes_kick)(nodes, y, s, x, weight);
+}
+/* Sum of x.x / weight; an entry of 0 adds nothing, whatever its weight. */
+static inline double spore_nodes_dual(size_t nodes, const double *x, const double *weight) {
+  return SPORE_KERNEL(spore_nodes_dual)(nodes, x, weight);
 }
 /* y += weight g, the same g for each */
 static inline void spore_nodes_pull(size_t nodes, double *y, const double *weight, const double g[3]) {

@@ -107,6 +107,29 @@ void SPORE_LEVEL_NAME(spore_nodes_kick)(size_t nodes, double *y, double s, const
   for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += s * x[k] / weight[k / 3];
 }
 
+SPORE_INLINE SporeVd dual_of(SporeVd x, SporeVd weight) {
+  return spore_vd_select(x == spore_vd_all(0), spore_vd_all(0), x * x / weight);
+}
+
+double SPORE_LEVEL_NAME(spore_nodes_dual)(size_t nodes, const double *x, const double *weight) {
+  assert(nodes == 0 || (x && weight));
+  SporeVd sum[PARTS] = {0};
+  double lanes[SPORE_LANES], rest = 0;
+  size_t i = 0;
+  for (; i + SPORE_LANES <= nodes; i += SPORE_LANES)
+    for (size_t p = 0; p < PARTS; p++) {
+      SporeVd w[3];
+      spread(weight + i + p * SPORE_WIDTH, w);
+      for (size_t k = 0; k < 3; k++) {
+        size_t part = 3 * p + k;
+        sum[part % PARTS] += dual_of(spore_vd_load(x + 3 * i + part * SPORE_WIDTH), w[k]);
+      }
+    }
+  for (size_t k = 3 * i; k < 3 * nodes; k++) rest += x[k] == 0 ? 0 : x[k] * x[k] / weight[k / 3];
+  for (int p = 0; p < PARTS; p++) spore_vd_store(lanes + p * SPORE_WIDTH, sum[p]);
+  return spore_lanes_sum(lanes) + rest;
+}
+
 void SPORE_LEVEL_NAME(spore_nodes_pull)(size_t nodes, double *y, const double *weight, const double g[3]) {
   double repeated[3 * SPORE_WIDTH];
   for (size_t k = 0; k < 3 * SPORE_WIDTH; k++) repeated[k] = g[k % 3];

@@ -57,6 +57,19 @@ static void check_nodes(void) {
     memcpy(y, b, sizeof y);
     spore_nodes_kick(nodes, y, 0.3, a, w);
     for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + 0.3 * a[i] / w[i / 3] : b[i]));
+    long double sum = 0;
+    for (size_t i = 0; i < LONGEST; i++) w[i] = fabs(w[i]);
+    for (size_t i = 0; i < 3 * nodes; i++) sum += (long double)a[i] * a[i] / w[i / 3];
+    g_assert_cmpfloat(fabs((double)(sum - spore_nodes_dual(nodes, a, w))), <=, 1e-15 * (double)sum);
+    for (size_t i = 0; i < nodes; i++) {
+      double weight = w[i], x[LONGEST];
+      memcpy(x, a, sizeof x);
+      w[i] = x[3 * i] = x[3 * i + 1] = x[3 * i + 2] = 0;
+      g_assert_true(isfinite(spore_nodes_dual(nodes, x, w)));
+      w[i] = weight;
+      x[3 * i + 1] = NAN;
+      g_assert_true(isnan(spore_nodes_dual(nodes, x, w)));
+    }
     memcpy(y, b, sizeof y);
     spore_nodes_pull(nodes, y, w, g);
     for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + w[i / 3] * g[i % 3] : b[i]));
@@ -98,7 +111,7 @@ static void test_instruction_sets(void) {
     double dot = 0;
     for (int level = 0; level < SPORE_CPU_LEVELS; level++) {
       spore_cpu_limit(level);
-      double *result = y[level > 0], sum = spore_vector_dot(n, a, b);
+      double *result = y[level > 0], sum = spore_vector_dot(n, a, b) + spore_nodes_dual(n / 3, a, b);
       memcpy(result, b, sizeof y[0]);
       spore_vector_add_scaled(n, result, 0.7, a);
       spore_vector_scale_add(n, result, -1.3, a);

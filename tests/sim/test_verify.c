@@ -189,6 +189,64 @@ static void test_names(void) {
   }
 }
 
+/* A solver that says it has solved what it has not is not believed. */
+static void test_says_solved(void) {
+  for (size_t k = 0; k < G_N_ELEMENTS(kinds); k++) {
+    SporeWorld *world = make(kinds[k], 2, 50);
+    SporeIsland *island = attempt(world, 1);
+    island->result.converged = true;
+    island->result.residual = 0;
+    island->trouble = SPORE_TROUBLE_NONE;
+    spore_world_verify(world);
+    g_test_message("%s: %.2e found", spore_integrator_names[kinds[k]], island->verdict.residual);
+    g_assert_cmpfloat(island->verdict.residual, >, 1e-8);
+    g_assert_cmpint(island->trouble, ==, SPORE_TROUBLE_NOT_CONVERGED);
+    spore_world_free(world);
+  }
+}
+
+/* A particle's step, solved, and then as by a solver whose forces are 1 % too large: with those its answer is exact. */
+static SporeIsland *take_step_with_wrong_forces(SporeWorld *world) {
+  do spore_world_step(world);
+  while (world->state.step % SPORE_STEPS_BETWEEN_LOOKS != 1);
+  SporeIsland *island = attempt(world, 50);
+  g_assert_cmpfloat(island->verdict.residual, <=, 1e-10);
+  SporeEvaluation *last = &world->solve.evaluated[0];
+  for (int k = 0; k < 3; k++) {
+    last->f[k] *= 1.01;
+    world->solve.kept_va[0][k] = world->solve.kept_v[0][k] - island->equations.kept[0].c * last->f[k] / MASS;
+  }
+  return island;
+}
+
+/* Such forces are used again only where the solver evaluated them at its answer. */
+static void test_elsewhere(void) {
+  for (int what = 0; what < 3; what++) {
+    SporeWorld *world = make(SPORE_INTEGRATOR_IMPLICIT_EULER, 1, 50);
+    const SporeIsland *island = take_step_with_wrong_forces(world);
+    double *moved[] = {world->solve.kept_v[0], world->solve.evaluated[0].v, world->solve.evaluated[0].q};
+    moved[what][1] = nextafter(moved[what][1], HUGE_VAL);
+    spore_world_verify(world);
+    g_assert_cmpfloat(island->verdict.residual, >, 1e-4);
+    g_assert_cmpint(island->trouble, ==, SPORE_TROUBLE_NOT_CONVERGED);
+    spore_world_free(world);
+  }
+}
+
+/* Where it did they go unnoticed, but not for long. */
+static void test_wrong_forces(void) {
+  SporeWorld *world = make(SPORE_INTEGRATOR_IMPLICIT_EULER, 1, 50);
+  const SporeIsland *island = take_step_with_wrong_forces(world);
+  unsigned found = 0;
+  for (int i = 0; i < SPORE_STEPS_BETWEEN_LOOKS; i++, world->state.step++) {
+    spore_world_verify(world);
+    g_assert_true(island->verdict.residual > 1e-4 || island->verdict.residual <= 1e-10);
+    found += island->verdict.residual > 1e-4;
+  }
+  g_assert_cmpuint(found, ==, 1);
+  spore_world_free(world);
+}
+
 static bool is_counted(const SporeWorld *world, uint32_t body, SporeUnsolvedCause cause) {
   for (size_t i = 0; i < spore_world_unsolved_count(world); i++) {
     SporeUnsolved entry = spore_world_unsolved(world, i);
@@ -281,6 +339,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/verify/by_hand", test_by_hand);
   g_test_add_func("/verify/as_written", test_as_written);
   g_test_add_func("/verify/names", test_names);
+  g_test_add_func("/verify/says_solved", test_says_solved);
+  g_test_add_func("/verify/elsewhere", test_elsewhere);
+  g_test_add_func("/verify/wrong_forces", test_wrong_forces);
   g_test_add_func("/verify/counts", test_counts);
   g_test_add_func("/verify/causes", test_causes);
   g_test_add_func("/verify/rounding", test_rounding);

@@ -259,6 +259,46 @@ static void mass_multiply(void *data, const double *x, double *y) {
   }
 }
 
+#define DIGEST_FACTOR 0x9e3779b97f4a7c15u
+
+static void add_bits(uint64_t sum[5], const double numbers[5]) {
+  uint64_t bits[5];
+  memcpy(bits, numbers, sizeof bits);
+  for (size_t k = 0; k < 5; k++) sum[k] = sum[k] * DIGEST_FACTOR + bits[k];
+}
+
+uint64_t spore_island_system_laws(const SporeIslandSystem *system) {
+  uint64_t sum[5] = {system->island->contact_count, system->island->spring_count};
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
+    const double law[5] = {term->law.stiffness, term->law.damping, term->law.friction, term->law.damping_depth,
+                           term->depth};
+    add_bits(sum, law);
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    const double law[5] = {term->law.stiffness, term->law.damping, term->law.friction, term->law.rest_length,
+                           term->stretch};
+    add_bits(sum, law);
+  }
+  for (size_t k = 1; k < 5; k++) sum[0] = sum[0] * DIGEST_FACTOR ^ sum[k];
+  return sum[0];
+}
+
+static size_t kept_buffer(const SporeKeptEquations *equations) {
+  assert(equations->set < 2);
+  return SPORE_EQUATIONS * equations->set + equations->count % SPORE_EQUATIONS;
+}
+
+static bool evaluation(void *data, SporeEvaluation *evaluation) {
+  const SporeIslandSystem *system = data;
+  if (!system->equations) return false;
+  const SporeEvaluation *kept = &system->world->solve.evaluated[kept_buffer(system->equations)];
+  const SporeIsland *island = system->island;
+  *evaluation = (SporeEvaluation){kept->q + island->q_start, kept->v + island->v_start, kept->f + island->v_start};
+  return true;
+}
+
 static void keep(void *data, const SporeEquation *equation) {
   const SporeIslandSystem *system = data;
   SporeKeptEquations *equations = system->equations;
@@ -266,12 +306,14 @@ static void keep(void *data, const SporeEquation *equation) {
   assert(equations && equation->c >= 0 && equation->qa && equation->v);
   assert(!system->shape || system->shape == equation->qa);
   const SporeIsland *island = system->island;
-  size_t i = equations->count++ % SPORE_EQUATIONS, buffer = SPORE_EQUATIONS * equations->set + i;
+  size_t buffer = kept_buffer(equations), i = equations->count++ % SPORE_EQUATIONS;
   equations->kept[i].c = equation->c;
   equations->kept[i].load = equation->load;
   equations->kept[i].at_s = system->now_s;
   equations->kept[i].shaped = system->shape != NULL;
   equations->kept[i].apart = system->apart;
+  equations->kept[i].evaluated = equation->evaluated;
+  equations->kept[i].laws = spore_island_system_laws(system);
   if (equation->c == 0) equations->balance_load = equation->load;
   memcpy(solve->kept_q[buffer] + island->q_start, equation->qa, island->q_count * sizeof(double));
   memcpy(solve->kept_v[buffer] + island->v_start, equation->v, island->v_count * sizeof(double));
@@ -351,6 +393,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .factorised = spore_island_system_factorised,
                          .factor_patience = spore_island_system_factor_patience,
                          .rounding = spore_island_system_rounding,
+                         .evaluation = evaluation,
                          .keep = keep,
                          .distance = distance,
                          .buckles = spore_island_system_buckles(system),

@@ -36,6 +36,8 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links);
 /* Whether a pin holds the island, or a link to a body that physics does not move. */
 bool spore_island_system_is_held(const SporeIslandSystem *system);
+/* A digest of the laws of contacts and links: where it changed, forces at the same q, v and t are others. */
+uint64_t spore_island_system_laws(const SporeIslandSystem *system);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
 void spore_island_system_keep_contacts(const SporeIslandSystem *system);
 

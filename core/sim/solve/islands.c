@@ -285,6 +285,9 @@ bool spore_world_create_solve(SporeWorld *world) {
     made &= (solve->kept_q[i] = SPORE_NEW_ARRAY(double, q)) != NULL;
     made &= (solve->kept_va[i] = SPORE_NEW_ARRAY(double, v)) != NULL;
     made &= (solve->kept_v[i] = SPORE_NEW_ARRAY(double, v)) != NULL;
+    made &= (solve->evaluated[i].q = SPORE_NEW_ARRAY(double, q)) != NULL;
+    made &= (solve->evaluated[i].v = SPORE_NEW_ARRAY(double, v)) != NULL;
+    made &= (solve->evaluated[i].f = SPORE_NEW_ARRAY(double, v)) != NULL;
   }
   return made;
 }
@@ -300,5 +303,8 @@ void spore_solve_clear(SporeSolve *solve) {
     spore_free(solve->kept_q[i]);
     spore_free(solve->kept_va[i]);
     spore_free(solve->kept_v[i]);
+    spore_free(solve->evaluated[i].q);
+    spore_free(solve->evaluated[i].v);
+    spore_free(solve->evaluated[i].f);
   }
 }

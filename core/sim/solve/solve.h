@@ -77,8 +77,10 @@ typedef struct SporeBodyHistory {
   uint64_t step;
 } SporeBodyHistory;
 
+/* Steps between two looks: at the energy and the error of explicit bodies, and at the forces that solvers evaluate. */
+#define SPORE_STEPS_BETWEEN_LOOKS 64
+
 /* Energy of all that physics moves, watched for growth: see energy_watch.c. J. */
-#define SPORE_STEPS_BETWEEN_LOOKS 64 /* explicit ones, between two looks at their energy or their error */
 typedef struct SporeEnergyWatch {
   bool started;
   uint32_t steps;        /* since the watch began */
@@ -97,8 +99,8 @@ typedef struct SporeBodySleep {
 } SporeBodySleep;
 
 /* The equations that an island solved last in a step, kept so that stage `verify` can evaluate them again: two, since a
- * step of TR-BDF2 solves two. Their vectors lie in SporeSolve.kept_q and so on, in buffer 2 set + i % 2 for the i-th.
- */
+ * step of TR-BDF2 solves two. Their vectors lie in SporeSolve.kept_q and so on, in buffer 2 set + i % 2 for the i-th,
+ * beside the last evaluation of their forces. */
 #define SPORE_EQUATIONS 2
 typedef struct SporeKeptEquations {
   size_t count;        /* solved in this attempt at the step, kept or not */
@@ -109,6 +111,8 @@ typedef struct SporeKeptEquations {
     double at_s;    /* since the step began: where prescribed ends are */
     bool shaped;    /* viscous forces are those of the shape qa */
     bool apart;     /* explicit bodies take part by their mass only: see multirate.c */
+    bool evaluated; /* there is an evaluation of its forces */
+    uint64_t laws;  /* of that evaluation: see spore_island_system_laws */
   } kept[SPORE_EQUATIONS];
 } SporeKeptEquations;
 
@@ -163,6 +167,7 @@ typedef struct SporeSolve {
   double *best_q, *best_v; /* like the local vectors: the best attempt of recovery at a step that went wrong */
   double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0 */
   double *kept_q[2 * SPORE_EQUATIONS], *kept_va[2 * SPORE_EQUATIONS], *kept_v[2 * SPORE_EQUATIONS]; /* likewise */
+  SporeEvaluation evaluated[2 * SPORE_EQUATIONS];                                                   /* likewise */
   double *still;            /* zeros: velocity of the largest body at rest */
   double *scratch;          /* of the integrators */
   size_t scratch_per_block; /* doubles of scratch a block */

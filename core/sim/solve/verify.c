@@ -1,10 +1,15 @@
 /* Verification: whether the accepted state solves the equations of the scene as written.
  *
  * An integrator keeps the equations that it solved last, M (v - va) = c f(drift(qa, v, c), v), or f(q, v) = 0, with its
- * answer. Stage `verify` evaluates them again, by code that the solver does not use: forces of the models by `force`
- * instead of `force_along`, contacts one by one instead of in lanes. Where a
- * stage ends the step, drift(qa, v, c) is the accepted state. Nothing of the world is written but the verdict, and the
- * inertia of frames, which `advance` sets again.
+ * answer. Stage `verify` computes their residuals anew. Where a stage ends the step, drift(qa, v, c) is the accepted
+ * state. Nothing of the world is written but the verdict, and the inertia of frames, which `advance` sets again.
+ *
+ * Forces are a pure function of q, v and t. Those that the solver evaluated last are used again where, bit by bit,
+ * their v is the answer and their q is where that leads, and no law of a contact or link has changed since. Else they
+ * are evaluated again, by code that the solver does not use: forces of the models by `force` instead of `force_along`,
+ * contacts one by one instead of in lanes. So they are where the residual is above the tolerance, where the solver
+ * says that it failed, where recovery stepped in, and every SPORE_STEPS_BETWEEN_LOOKS steps, for what the solver's own
+ * evaluation may have wrong.
  *
  * Of a step in many parts the last equations are evaluated; of the others the solver's word is taken
  * (result.converged).
@@ -29,13 +34,17 @@ typedef struct Equation {
   double c, at_s, load;
   bool shaped;
   const double *qa, *va, *v;
-  double *q, *work, *momentum, *residual, *other;
+  bool evaluated; /* by the solver: */
+  SporeEvaluation last;
+  uint64_t laws; /* of that evaluation */
+  double *q, *work, *force, *residual, *other;
 } Equation;
 
 static Equation equation_of(SporeWorld *world, SporeIsland *island, size_t i) {
   assert(i < SPORE_EQUATIONS && i < island->equations.count);
   size_t buffer = SPORE_EQUATIONS * island->equations.set + i, n = island->v_count;
   double *scratch = world->solve.scratch + world->solve.scratch_per_block * (island->v_start / 3);
+  const SporeEvaluation *last = &world->solve.evaluated[buffer];
   return (Equation){.system = {.world = world, .island = island, .apart = island->equations.kept[i].apart},
                     .c = island->equations.kept[i].c,
                     .at_s = island->equations.kept[i].at_s,
@@ -44,9 +53,12 @@ static Equation equation_of(SporeWorld *world, SporeIsland *island, size_t i) {
                     .qa = world->solve.kept_q[buffer] + island->q_start,
                     .va = world->solve.kept_va[buffer] + island->v_start,
                     .v = world->solve.kept_v[buffer] + island->v_start,
+                    .evaluated = island->equations.kept[i].evaluated,
+                    .last = {last->q + island->q_start, last->v + island->v_start, last->f + island->v_start},
+                    .laws = island->equations.kept[i].laws,
                     .q = scratch,
                     .work = scratch + 2 * n,
-                    .momentum = scratch + 3 * n,
+                    .force = scratch + 3 * n,
                     .residual = scratch + 4 * n,
                     .other = scratch + 5 * n};
 }
@@ -60,21 +72,33 @@ static Equation balance_of(SporeWorld *world, SporeIsland *island) {
   equation.shaped = false;
   equation.qa = island->q1;
   equation.v = world->solve.still;
+  equation.evaluated = false;
   return equation;
 }
 
-/* Moves q from qa along v, and sets the inertia of frames to that at qa. */
+/* Moves q from qa along v. */
 static void place(const Equation *equation) {
   const SporeIslandSystem *system = &equation->system;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    spore_body_turn_mass(system->world, body, equation->qa + site->q);
     if (equation->c > 0)
       spore_body_drift(body, equation->qa + site->q, equation->v + site->v, equation->c, equation->q + site->q,
                        equation->work + site->v);
     else memcpy(equation->q + site->q, equation->qa + site->q, body->q_count * sizeof(double));
   }
+}
+
+/* Whether the solver's last evaluation is that of the answer. Where a step ends there, the accepted q is known. */
+static bool is_known(const Equation *equation) {
+  const SporeIsland *island = equation->system.island;
+  const SporeEvaluation *last = &equation->last;
+  size_t q_size = island->q_count * sizeof(double);
+  if (!equation->evaluated || memcmp(last->v, equation->v, island->v_count * sizeof(double)) != 0) return false;
+  if (equation->laws != spore_island_system_laws(&equation->system)) return false;
+  if (!memcmp(last->q, island->q1, q_size)) return true;
+  place(equation);
+  return !memcmp(last->q, equation->q, q_size);
 }
 
 static void add_body_forces(const Equation *equation, double *f) {
@@ -136,40 +160,54 @@ static void add_term_forces(const Equation *equation, double *f) {
     add_spring(equation, spore_island_system_spring(system, i), f);
 }
 
-/* residual = c f - M (v - va), or f where c is 0 */
-static void evaluate(const Equation *equation) {
+/* residual = M (v - va) - c f, or f where c is 0 */
+static void set_residual(const Equation *equation, const double *f) {
   const SporeIslandSystem *system = &equation->system;
-  size_t n = system->island->v_count;
-  double *r = equation->residual;
-  memset(r, 0, n * sizeof *r);
-  add_body_forces(equation, r);
-  add_term_forces(equation, r);
-  for (size_t k = 0; equation->c > 0 && k < n; k++) equation->work[k] = equation->v[k] - equation->va[k];
-  for (size_t b = 0; equation->c > 0 && b < system->island->kept_count; b++) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    spore_island_system_weigh(system, body, equation->work + site->v, equation->momentum + site->v);
-    for (size_t k = site->v; k < site->v + 3 * body->block_count; k++)
-      r[k] = equation->c * r[k] - equation->momentum[k];
+    size_t n = 3 * body->block_count;
+    double *r = equation->residual + site->v, *change = equation->work + site->v;
+    if (equation->c > 0) {
+      spore_vector_move(n, change, equation->v + site->v, -1, equation->va + site->v);
+      spore_island_system_weigh(system, body, change, r);
+      spore_vector_add_scaled(n, r, -equation->c, f + site->v);
+    } else {
+      memcpy(r, f + site->v, n * sizeof *r);
+    }
+    spore_pin_filter(body->held.blocks, body->held.count, r);
   }
-  spore_island_system_filter(system, r);
+}
+
+/* The residual at q. */
+static void evaluate(const Equation *equation) {
+  memset(equation->force, 0, equation->system.island->v_count * sizeof *equation->force);
+  add_body_forces(equation, equation->force);
+  add_term_forces(equation, equation->force);
+  set_residual(equation, equation->force);
+}
+
+/* x.M^-1 x of the body; x: its part of a vector, 0 where blocks are held. */
+static double dual_square(const SporeIslandSystem *system, const SporeBody *body, const double *x) {
+  size_t nodes = spore_model_is_rigid(body->model) ? 0 : body->model->node_count;
+  const double *inverse = system->world->state.mass_inverse + 3 * body->v_offset;
+  double sum = spore_nodes_dual(nodes, x, body->model->block_mass);
+  for (size_t i = nodes; i < body->block_count; i++) {
+    double lighter[3];
+    spore_blocks_apply(inverse + 9 * i, 1, x + 3 * i, lighter);
+    sum += spore_vec3_dot(spore_vec3_load(x + 3 * i), spore_vec3_load(lighter));
+  }
+  return sum;
 }
 
 /* (x.M^-1 x)^1/2. *most, unless NULL: the body with the largest part of it, or with one that is not finite. */
 static double dual_norm(const Equation *equation, const double *x, uint32_t *most) {
   const SporeIslandSystem *system = &equation->system;
   double sum = 0, largest = -1;
-  memset(equation->work, 0, system->island->v_count * sizeof(double));
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    size_t nodes = spore_model_is_rigid(body->model) ? 0 : body->model->node_count;
-    double *lighter = equation->work + site->v;
-    spore_nodes_kick(nodes, lighter, 1, x + site->v, body->model->block_mass);
-    spore_blocks_add(system->world->state.mass_inverse + 3 * body->v_offset + 9 * nodes, body->block_count - nodes, 1,
-                     x + site->v + 3 * nodes, lighter + 3 * nodes);
-    spore_pin_filter(body->held.blocks, body->held.count, lighter);
-    double part = spore_vector_dot(3 * body->block_count, x + site->v, lighter);
+    double part = dual_square(system, body, x + site->v);
     sum += part;
     if (!most || part <= largest) continue;
     largest = part;
@@ -208,15 +246,37 @@ static bool is_loaded(const Equation *equation) {
   if (island->gravity_momentum > 0) return true;
   memset(equation->other, 0, island->v_count * sizeof(double));
   add_term_forces(equation, equation->other);
+  spore_island_system_filter(&equation->system, equation->other);
   return dual_norm(equation, equation->other, NULL) > 0;
 }
 
+/* Sets the inertia of frames to that at qa. */
+static void turn_mass(const Equation *equation) {
+  const SporeIslandSystem *system = &equation->system;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    spore_body_turn_mass(system->world, body, equation->qa + site->q);
+  }
+}
+
+static double norm_of_residual(const Equation *equation, SporeVerdict *verdict) {
+  *verdict = (SporeVerdict){.body = SPORE_NO_BODY};
+  double norm = dual_norm(equation, equation->residual, &verdict->body);
+  if (norm > 0) verdict->residual = norm / equation->load;
+  return norm;
+}
+
 static SporeVerdict judge(const Equation *equation, double tolerance) {
-  SporeVerdict verdict = {.body = SPORE_NO_BODY};
+  SporeVerdict verdict;
+  turn_mass(equation);
+  if (is_known(equation)) {
+    set_residual(equation, equation->last.f);
+    if (norm_of_residual(equation, &verdict) <= tolerance * equation->load) return verdict;
+  }
   place(equation);
   evaluate(equation);
-  double norm = dual_norm(equation, equation->residual, &verdict.body);
-  if (norm > 0) verdict.residual = norm / equation->load;
+  double norm = norm_of_residual(equation, &verdict);
   if (norm <= tolerance * equation->load) return verdict;
   if (!isfinite(norm)) verdict.residual = INFINITY;
   bool loaded = is_loaded(equation);
@@ -232,17 +292,24 @@ static void judge_also(SporeVerdict *verdict, const Equation *equation, double t
   if (other.residual > verdict->residual) *verdict = other;
 }
 
+/* Whether forces are evaluated again, come what may. */
+static bool is_doubted(const SporeWorld *world, const SporeIsland *island) {
+  size_t turn = world->state.step + (size_t)(island - world->solve.islands);
+  return turn % SPORE_STEPS_BETWEEN_LOOKS == 0 || island->mending_substeps > 0 || !island->result.converged;
+}
+
 static void verify_island(void *data, size_t index) {
   SporeWorld *world = data;
   assert(index < world->solve.island_count);
   SporeIsland *island = &world->solve.islands[index];
   SporeVerdict *verdict = &island->verdict;
   double tolerance = world->solver.tolerance;
-  bool moved = false;
+  bool moved = false, doubted = is_doubted(world, island);
   *verdict = (SporeVerdict){.body = SPORE_NO_BODY};
   if (island->kept_count == 0) return;
   for (size_t i = 0; i < island->equations.count && i < SPORE_EQUATIONS; i++) {
     Equation equation = equation_of(world, island, i);
+    equation.evaluated &= !doubted;
     judge_also(verdict, &equation, tolerance);
     moved |= equation.c > 0;
   }
