@@ -231,6 +231,9 @@ struct SporeModelType {
   /* Moves q along v for h seconds, free of force: q1, v1 from q, v (may alias). NULL: q1 = q + h v, v1 = v.
    * A rigid body turns here and keeps its angular momentum. */
   void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);
+  /* The longest drift (s) that turns a frame in this state to where it belongs. A longer one keeps the angular
+   * momentum, but the frame's orientation is wrong after it. INFINITY, or NULL: any drift is right. */
+  double (*longest_turn)(const SporeModel *model, const double *q, const double *v);
   /* Takes new parameter values while running; only ones marked SPORE_CHANGE_LIVE differ. */
   bool (*retune)(SporeModel *model, const void *fields, SporeError *error);
   /* Greatest angular frequency (rad/s) and damping rate (1/s) of the model's own forces. For models without a Jacobian

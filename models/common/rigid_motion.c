@@ -5,7 +5,9 @@
 #include <math.h>
 
 #define EVEN 1e-12          /* moments that differ by no more, relative, are equal */
-#define SUBSTEPS_MAXIMUM 25 /* of free rotation in a step: 5 rad */
+#define ANGLE 0.2           /* rad: partial rotation in a substep of free motion */
+#define SUBSTEPS_MAXIMUM 25 /* of free motion */
+#define NEGLIGIBLE 1e-12    /* rad: a partial rotation that is rounding */
 
 bool spore_inertia_init(SporeInertia *inertia, SporeMat3 tensor) {
   inertia->tensor = tensor;
@@ -74,23 +76,41 @@ static void composed_step(FreeTop *top, const double inverse[3], double h) {
   turn_about(top, 0, 0.5 * before * a * top->p[0]);
 }
 
-/* Turns the top for h seconds, in substeps in which neither partial rotation exceeds 0.2 rad; the error of one substep
- * is then below 1e-14. The bounds on the rotations are constants of free motion, so that the number of substeps does
- * not change along the motion. One step of second order is enough where its error is below rounding: for a body of
- * revolution, or for a body that hardly turns. One step is taken, too, where more than the maximum number of substeps
- * were needed: the motion stays stable and keeps its momentum, but loses phase, as it would in fewer substeps than it
- * needs; more of them would be work for nothing. */
+/* Bounds of the two partial rotations, rad/s. They are constants of free motion, so that the number of substeps does
+ * not change along the motion. */
+typedef struct Rates {
+  double fast, slow;
+} Rates;
+
+static Rates rates_of(const double p[3], const double inverse[3]) {
+  double square = 0, energy2 = 0;
+  for (int i = 0; i < 3; i++) square += p[i] * p[i], energy2 += p[i] * p[i] * inverse[i];
+  return (Rates){fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]),
+                 fmin(sqrt(square), sqrt(energy2 / inverse[2])) * (inverse[1] - inverse[2])};
+}
+
+/* See spore_inertia_longest_drift. With one partial rotation alone, one step is exact. */
+static double longest_drift(const Rates *rates) {
+  double larger = fmax(rates->fast, rates->slow), smaller = fmin(rates->fast, rates->slow);
+  double followed = larger > 0 ? SUBSTEPS_MAXIMUM * ANGLE / larger : INFINITY;
+  return fmax(followed, smaller > 0 ? NEGLIGIBLE / smaller : INFINITY);
+}
+
+/* Turns the top for h seconds, in substeps in which neither partial rotation exceeds ANGLE; the error of one substep is
+ * then below 1e-14. One step of second order is enough where its error is below rounding: for a body of revolution, or
+ * for a body that hardly turns. One step is taken, too, where more than the maximum number of substeps were needed: the
+ * motion stays stable and keeps its momentum, but loses phase, as it would in fewer substeps than it needs; more of
+ * them would be work for nothing. */
 static void turn(FreeTop *top, const double inverse[3], double h) {
   assert(isfinite(h));
-  double square = 0, energy2 = 0, size = fabs(h);
-  for (int i = 0; i < 3; i++) square += top->p[i] * top->p[i], energy2 += top->p[i] * top->p[i] * inverse[i];
-  double fast = size * fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]);
-  double slow = size * fmin(sqrt(square), sqrt(energy2 / inverse[2])) * (inverse[1] - inverse[2]);
-  double count = fmax(ceil(fmax(fast, slow) / 0.2), 1);
-  if (fast * slow * (fast + slow) < 1e-17 || fmin(fast, slow) < 1e-12 || !(count <= SUBSTEPS_MAXIMUM)) {
+  Rates rates = rates_of(top->p, inverse);
+  double size = fabs(h), fast = size * rates.fast, slow = size * rates.slow;
+  bool slight = fast * slow * (fast + slow) < 1e-17 || fmin(fast, slow) < NEGLIGIBLE;
+  if (slight || !(size <= longest_drift(&rates))) {
     strang_step(top, inverse, h);
     return;
   }
+  double count = fmin(fmax(ceil(fmax(fast, slow) / ANGLE), 1), SUBSTEPS_MAXIMUM);
   for (int i = 0; i < (int)count; i++) composed_step(top, inverse, h / count);
 }
 
@@ -142,4 +162,14 @@ void spore_inertia_drift(const SporeInertia *inertia, double h, SporeQuat *orien
   *spin = spin_of(inertia, &rotation, momentum);
   SporeVec3 missed = spore_vec3_sub(momentum, momentum_of(inertia, &rotation, *spin));
   *spin = spore_vec3_add(*spin, spin_of(inertia, &rotation, missed));
+}
+
+double spore_inertia_longest_drift(const SporeInertia *inertia, SporeQuat orientation, SporeVec3 spin) {
+  assert(inertia->moment[0] > 0);
+  if (inertia->even) return INFINITY;
+  SporeMat3 rotation = rotation_of(spore_quat_multiply(orientation, inertia->principal_quat));
+  double p[3];
+  spore_vec3_store(p, spore_mat3_apply(spore_mat3_transpose(rotation), momentum_of(inertia, &rotation, spin)));
+  Rates rates = rates_of(p, inertia->inverse);
+  return longest_drift(&rates);
 }

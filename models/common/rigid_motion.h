@@ -22,5 +22,8 @@ SporeMat3 spore_inertia_turned(const SporeInertia *inertia, SporeQuat orientatio
 /* Free motion for h seconds: turns *orientation (of the body's frame) and *spin (rad/s, world axes). Keeps the angular
  * momentum to rounding, however fast or slender the body. */
 void spore_inertia_drift(const SporeInertia *inertia, double h, SporeQuat *orientation, SporeVec3 *spin);
+/* The longest h (s) for which that is right. A longer motion keeps the momentum and stays stable, but turns the body
+ * over too early or too late. INFINITY: any h, as for a ball or a body of revolution, up to rounding. */
+double spore_inertia_longest_drift(const SporeInertia *inertia, SporeQuat orientation, SporeVec3 spin);
 
 #endif

@@ -104,6 +104,11 @@ void spore_virtual_core_drift(const SporeVirtualCore *core, const double *q, con
   spore_vec3_store(v1 + n, spin);
 }
 
+double spore_virtual_core_longest_turn(const SporeVirtualCore *core, const double *q, const double *v) {
+  size_t n = 3 * (core->count + 1);
+  return spore_inertia_longest_drift(&core->inertia, spore_quat_load(q + n), spore_vec3_load(v + n));
+}
+
 /* Forces. */
 
 /* The core in a state. */

@@ -47,6 +47,7 @@ void spore_virtual_core_place(const SporeVirtualCore *core, const double *rest, 
 SporeMat3 spore_virtual_core_inertia(const SporeVirtualCore *core, const double *q);
 void spore_virtual_core_drift(const SporeVirtualCore *core, const double *q, const double *v, double h, double *q1,
                               double *v1);
+double spore_virtual_core_longest_turn(const SporeVirtualCore *core, const double *q, const double *v);
 
 /* What the ties add, as SporeModelType says. */
 SPORE_DECLARE_KERNEL(void, spore_virtual_core_ties, const SporeVirtualCore *core, const SporeMat3 *rotation,

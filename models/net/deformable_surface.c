@@ -167,6 +167,11 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
   spore_virtual_core_drift(&((const Surface *)model)->core, q, v, h, q1, v1);
 }
 
+static double longest_turn(const SporeModel *model, const double *q, const double *v) {
+  assert(model->type == &spore_deformable_surface);
+  return spore_virtual_core_longest_turn(&((const Surface *)model)->core, q, v);
+}
+
 static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
                         double *f) {
   assert(model->type == &spore_deformable_surface);
@@ -244,5 +249,6 @@ const SporeModelType spore_deformable_surface = {
     .tangent = tangent,
     .stiffness = tangent,
     .drift = drift,
+    .longest_turn = longest_turn,
     .retune = retune,
 };

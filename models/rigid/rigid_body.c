@@ -137,6 +137,12 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
   spore_vec3_store(v1 + 3, spin);
 }
 
+static double longest_turn(const SporeModel *model, const double *q, const double *v) {
+  assert(model->type == &spore_rigid_body);
+  return spore_inertia_longest_drift(&((const RigidBody *)model)->inertia, spore_quat_load(q + 3),
+                                     spore_vec3_load(v + 3));
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_rigid_body);
   assert(count == 0 || points);
@@ -167,4 +173,5 @@ const SporeModelType spore_rigid_body = {
     .potential = potential,
     .map = map,
     .drift = drift,
+    .longest_turn = longest_turn,
 };

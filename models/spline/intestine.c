@@ -135,6 +135,11 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
   spore_virtual_core_drift(&((const Intestine *)model)->root, q, v, h, q1, v1);
 }
 
+static double longest_turn(const SporeModel *model, const double *q, const double *v) {
+  assert(model->type == &spore_intestine);
+  return spore_virtual_core_longest_turn(&((const Intestine *)model)->root, q, v);
+}
+
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
@@ -219,6 +224,7 @@ const SporeModelType spore_intestine = {
     .jacobian = jacobian,
     .stiffness = stiffness,
     .drift = drift,
+    .longest_turn = longest_turn,
     .retune = retune,
     .spheres = spheres,
     .line = &line,

@@ -319,6 +319,58 @@ static void case_25(void) {
   }
 }
 
+/* Angle (rad) between where the first body points after one step and after a thousand in the same time. */
+static double lost_phase(Rig *const rigs[2]) {
+  SporeQuat one = spore_quat_load(spore_world_q(rigs[0]->world, 0) + 3);
+  SporeQuat other = spore_quat_load(spore_world_q(rigs[1]->world, 0) + 3);
+  SporeQuat apart = spore_quat_multiply(spore_quat_conjugate(one), other);
+  return 2 * asin(fmin(1, sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z)));
+}
+
+/* Where a step turns a body further than its turning is followed, that is said, and only there. */
+static void lost_turn(void) {
+  static const struct {
+    double size[3], h;
+    SporeIntegratorKind kind;
+    bool lost;
+  } cases[] = {
+      {{0.3, 0.2, 0.1}, 5e-3, SPORE_INTEGRATOR_SYMPLECTIC_EULER, false},
+      {{0.3, 0.2, 0.1}, 2e-2, SPORE_INTEGRATOR_SYMPLECTIC_EULER, true},
+      {{0.3, 0.2, 0.1}, 2e-2, SPORE_INTEGRATOR_IMPLICIT_EULER, true},
+      {{0.2, 0.2, 0.1}, 2e-2, SPORE_INTEGRATOR_SYMPLECTIC_EULER, false}, /* as a body of revolution */
+      {{0.2, 0.2, 0.2}, 2e-2, SPORE_INTEGRATOR_SYMPLECTIC_EULER, false},
+  };
+  for (unsigned c = 0; c < G_N_ELEMENTS(cases); c++) {
+    Rig *rigs[2];
+    for (int w = 0; w < 2; w++) {
+      double inertia[3];
+      SporeModel *model = box(cases[c].size[0], cases[c].size[1], cases[c].size[2], inertia);
+      rigs[w] = rig_new();
+      rigs[w]->description.solver.maximum_speed = 1e6;
+      SporeWorld *world =
+          spinning(rigs[w], model, spore_vec3(100, 1000, 20), cases[c].h / (w ? 1000 : 1), cases[c].kind);
+      rig_run(world, w ? 1000 : 1);
+    }
+    double apart = lost_phase(rigs);
+    const SporeWorld *world = rigs[0]->world;
+    const SporeMonitor *monitor = spore_world_monitor(world);
+    g_test_message("turn of %g rad at once: %.1e rad from a thousand steps; said: %s", 1000 * cases[c].h, apart,
+                   monitor->message_count ? monitor->messages[0].text : "nothing");
+    g_assert_cmpuint(spore_world_unsolved_count(rigs[1]->world), ==, 0);
+    g_assert_cmpuint(spore_world_unsolved_count(world), ==, cases[c].lost);
+    g_assert_cmpuint(monitor->message_count, ==, cases[c].lost);
+    if (cases[c].lost) {
+      SporeUnsolved entry = spore_world_unsolved(world, 0);
+      g_assert_cmpstr(entry.unit, ==, "rad");
+      g_assert_cmpfloat(fabs(entry.worst - cases[c].h * spore_vec3_length(body_spin(world))), <, 1e-9);
+      g_assert_cmpfloat(apart, >, 0.1);
+    } else {
+      g_assert_cmpfloat(apart, <, 1e-9);
+    }
+    for (int w = 0; w < 2; w++) rig_free(rigs[w]);
+  }
+}
+
 /* Case 26: a needle whose moments are as 1 to 1e6. */
 static void case_26(void) {
   static const SporeVec3 spins[] = {{1, 1, 1}, {100, 1, 2}, {0, 3, 0}, {1000, 0, 1e-3}};
@@ -351,6 +403,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/rigid/order", order_of_top);
   g_test_add_func("/stability/rigid/balance", balance);
   g_test_add_func("/stability/25_flip", case_25);
+  g_test_add_func("/stability/lost_turn", lost_turn);
   g_test_add_func("/stability/26_needle", case_26);
   return g_test_run();
 }

@@ -119,6 +119,30 @@ static void test_pile(gconstpointer data) {
   rig_free(awake);
 }
 
+/* The energy of contacts is counted once, in the step in which their island falls asleep as before and after it. */
+static void test_energy(void) {
+  Rig *rig = piles(1e-6, SPORE_INTEGRATOR_IMPLICIT_EULER);
+  SporeWorld *world = rig_build(rig);
+  double least = HUGE_VAL, most = 0;
+  guint fell_asleep = 0;
+  while (spore_world_time_s(world) < SETTLED_S) {
+    guint before = count_asleep(world);
+    double energy = spore_world_energy(world).contact;
+    spore_world_step(world);
+    if (count_asleep(world) == before) continue;
+    fell_asleep++;
+    for (int steps = 0; steps < 2; steps++, spore_world_step(world)) {
+      least = fmin(least, spore_world_energy(world).contact / energy);
+      most = fmax(most, spore_world_energy(world).contact / energy);
+    }
+  }
+  g_test_message("energy of contacts when their island falls asleep: %.9f to %.9f times that before", least, most);
+  g_assert_cmpuint(fell_asleep, >=, 1);
+  g_assert_cmpfloat(least, >, 1 - 1e-6);
+  g_assert_cmpfloat(most, <, 1 + 1e-6);
+  rig_free(rig);
+}
+
 /* What a tool touches stays awake, however still the tool is: it is to feel friction and creep. */
 static void test_held(void) {
   Rig *rig = piles(1e-6, SPORE_INTEGRATOR_IMPLICIT_EULER);
@@ -270,6 +294,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_data_func("/sleep/pile/symplectic_euler", GINT_TO_POINTER(SPORE_INTEGRATOR_SYMPLECTIC_EULER), test_pile);
   g_test_add_data_func("/sleep/pile/implicit_euler", GINT_TO_POINTER(SPORE_INTEGRATOR_IMPLICIT_EULER), test_pile);
+  g_test_add_func("/sleep/energy", test_energy);
   g_test_add_func("/sleep/held", test_held);
   g_test_add_func("/sleep/threads", test_threads);
   g_test_add_func("/sleep/reset", test_reset);

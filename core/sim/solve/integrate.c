@@ -75,6 +75,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
     if ((effort && !go_on(effort, &result)) || spore_cancel_asked(world->cancel)) break;
   }
   spore_island_system_keep_contacts(&system);
+  island->drift_s = system.drift_s;
   return total;
 }
 

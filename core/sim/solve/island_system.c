@@ -221,6 +221,7 @@ void spore_body_drift(const SporeBody *body, const double *q0, const double *v, 
 
 static void drift(void *data, const double *q0, const double *v, double h, double *q1, double *v1) {
   SporeIslandSystem *system = data;
+  system->drift_s = fmax(system->drift_s, h);
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);

@@ -20,6 +20,7 @@ typedef struct SporeIslandSystem {
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* particles that go alone take part by their mass only: see multirate.c */
   bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
+  double drift_s;        /* the longest that bodies moved free of force at once */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
   bool together;                              /* the preconditioner is a factor of the whole matrix */

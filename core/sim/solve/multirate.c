@@ -182,6 +182,7 @@ SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *i
     if (spore_cancel_asked(world->cancel)) break;
   }
   spore_island_system_keep_contacts(&system);
+  island->drift_s = system.drift_s;
   return total;
 }
 

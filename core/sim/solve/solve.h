@@ -147,6 +147,7 @@ typedef struct SporeIsland {
   SporeTrouble trouble;            /* the worst that was met, corrected or not */
   uint32_t offender;               /* body in which the trouble was met */
   bool made_safer;                 /* this step took a safer integrator, for good */
+  double drift_s;                  /* the longest that its bodies moved free of force at once */
   double error;                    /* of an explicit step: how far two of half its size are from it; 0: not looked at */
   bool frictionless;               /* this step was taken without friction, since with friction none was found */
   const SporeIntegrator *stand_in; /* took this step for the bodies with other integrators; NULL: none */

@@ -21,6 +21,17 @@ double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body,
   return energy;
 }
 
+static bool sleeps(const SporeWorld *world, const SporeEnd *end) {
+  return end->body != SPORE_NO_BODY && world->bodies[end->body].sleep.asleep;
+}
+
+/* Energy of the contact; 0 in the step in which its island falls asleep: sleep.energy of a body holds it from then on.
+ */
+static double contact_energy(const SporeWorld *world, const SporeContactTerm *term) {
+  if (sleeps(world, &term->a) || sleeps(world, &term->b)) return 0;
+  return spore_contact_term_energy(term, world->state.sites, world->state.q);
+}
+
 SporeEnergy spore_world_energy(const SporeWorld *world) {
   assert(world->contact.count <= world->contact.capacity);
   SporeEnergy energy = {0, 0, 0, 0};
@@ -36,7 +47,6 @@ SporeEnergy spore_world_energy(const SporeWorld *world) {
   for (size_t i = 0; i < springs; i++)
     if (world->links.active[i])
       energy.internal += spore_spring_term_energy(&world->links.springs[i], world->state.sites, world->state.q);
-  for (size_t i = 0; i < world->contact.count; i++)
-    energy.contact += spore_contact_term_energy(&world->contact.terms[i], world->state.sites, world->state.q);
+  for (size_t i = 0; i < world->contact.count; i++) energy.contact += contact_energy(world, &world->contact.terms[i]);
   return energy;
 }

@@ -115,6 +115,28 @@ static void count_error(SporeWorld *world, const SporeIsland *island) {
                      body->name, h, 100 * island->error, h * sqrt(0.5 * ERROR_OF_STEP / island->error));
 }
 
+/* Counts bodies whose frame turned further at once than its turning is followed. How far static turns one on the way to
+ * a balance does not matter. */
+static void count_turning(SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->solve.island_bodies[island->body_start + i];
+    SporeBody *body = &world->bodies[b];
+    if (!body->model->type->longest_turn || spore_body_is_static(body)) continue;
+    const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
+    double longest = body->model->type->longest_turn(body->model, q, v);
+    if (island->drift_s <= longest) continue;
+    double rate = spore_vec3_length(spore_vec3_load(v + 3 * (body->block_count - 1)));
+    spore_world_count_unsolved(world, b, SPORE_UNSOLVED_TURNED, rate * island->drift_s);
+    if (body->reported.turned) continue;
+    body->reported.turned = true;
+    spore_world_report(world,
+                       _("%s: turns by %.3g rad at once, about changing axes, and where it points is lost; take steps "
+                         "of %.2g s or less"),
+                       body->name, rate * island->drift_s,
+                       0.95 * longest); /* which two digits do not round up above it */
+  }
+}
+
 /* Counts the bodies that this step did not move as the scene is written. */
 static void count_unsolved(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
@@ -126,6 +148,7 @@ static void count_unsolved(SporeWorld *world) {
   for (size_t i = 0; i < world->solve.island_count; i++) {
     const SporeIsland *island = &world->solve.islands[i];
     count_island(world, island);
+    count_turning(world, island);
     if (!(island->error <= ERROR_OF_STEP)) count_error(world, island);
   }
 }

@@ -44,6 +44,7 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_LEFT_OUT, /* contacts had no room; figure: number of contacts, of all bodies together */
   SPORE_UNSOLVED_ENERGY,   /* energy out of nothing, as a share of the energy at work */
   SPORE_UNSOLVED_HALVES,   /* how far a step and its halves are apart, as a share of the speed */
+  SPORE_UNSOLVED_TURNED,   /* a frame turned further than its turning is followed; figure: in a step, rad */
   SPORE_UNSOLVED_CAUSES
 } SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */
@@ -87,6 +88,7 @@ typedef struct SporeReported {
   bool fast;            /* the body comes faster than contacts stop it */
   bool passed;          /* the body passed through another */
   bool error;           /* the body's explicit step is too large for its motion */
+  bool turned;          /* the body turns further in a step than its turning is followed */
   bool torn;            /* the body tears */
   bool notice;          /* what the body's model had to correct */
 } SporeReported;

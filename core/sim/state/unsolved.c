@@ -38,6 +38,8 @@ static const struct {
     [SPORE_UNSOLVED_HALVES] =
         {N_("an explicit step and two of half its size are more than a quarter of its speed apart"),
          N_("take a smaller time_step or more substeps"), ""},
+    [SPORE_UNSOLVED_TURNED] = {N_("it spins so fast about changing axes that a step loses where it points"),
+                               N_("take a smaller time_step or more substeps"), "rad"},
 };
 _Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
 
