@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/run_output.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
@@ -22,6 +23,7 @@ typedef struct RunOptions {
   char **level;
   int threads;
   SporeSceneOptions scene;
+  SporeOutputOptions output;
 } RunOptions;
 
 /* The devices' input. */
@@ -44,7 +46,7 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
 
 /* recording: NULL, or a track with a channel for each active body. pace: NULL, or the clock that paces the steps. */
 static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, GArray *levels,
-                                    SporePace *pace, Recording *recording) {
+                                    SporePace *pace, Recording *recording, SporeOutput *output) {
   SporeRunStatistics statistics;
   spore_run_statistics_start(&statistics, world);
   gint64 stride = MAX(1, steps / ENERGY_LOOKS);
@@ -61,6 +63,7 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
       recording->lost = TRUE;
       break;
     }
+    if (!spore_output_step(output, (guint64)done)) break;
     if (done % stride == 0 || done == steps) {
       spore_run_statistics_energy(&statistics, world);
       spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
@@ -109,19 +112,19 @@ static gboolean count_steps(const RunOptions *options, double dt_s, gint64 *step
   return TRUE;
 }
 
-static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
-  GError *error = NULL;
-  if (options->record && (!spore_cli_has_room(options->record, scene, &error) ||
-                          (options->scene.input && !spore_cli_has_room(options->record, options->scene.input, &error))))
-    return spore_cli_fail(error);
-  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
-  if (!run) return spore_cli_fail(error);
+/* What can be refused before the scene is opened. */
+static gboolean check_files(const char *scene, const RunOptions *options, GError **error) {
+  const char *record = options->record, *input = options->scene.input;
+  if (record && !(spore_cli_has_room(record, scene, error) && (!input || spore_cli_has_room(record, input, error))))
+    return FALSE;
+  return spore_output_check(&options->output, scene, input, record, error);
+}
+
+/* Runs what was opened, and writes what was asked for. */
+static int run_opened(SporeCli *cli, const char *scene, const RunOptions *options, SporeRun *run, gint64 steps,
+                      GArray *levels, SporeOutput *output) {
   SporeWorld *world = run->simulation->world;
-  g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
-  if (!levels) return spore_cli_fail(error);
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  gint64 steps = 0;
-  if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
   Recording recording = {0};
   if (options->record && !add_channels(world, &recording.track)) {
     spore_track_clear(&recording.track);
@@ -129,12 +132,30 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   }
   g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
   if (pace) spore_world_set_budget(world, 1e6 * dt_s);
-  SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL);
+  SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL, output);
   int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
-  status = MAX(status, saved);
+  int written = spore_output_save(cli, output, scene);
+  status = MAX(status, MAX(saved, written));
   spore_track_clear(&recording.track);
   return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
+}
+
+static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
+  GError *error = NULL;
+  if (!check_files(scene, options, &error)) return spore_cli_fail(error);
+  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
+  if (!run) return spore_cli_fail(error);
+  g_autoptr(GArray) levels = spore_level_changes_parse(run->simulation->world, options->level, &error);
+  if (!levels) return spore_cli_fail(error);
+  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
+  gint64 steps = 0;
+  if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
+  SporeOutput output;
+  gboolean opened = spore_output_open(&output, &options->output, run, &error);
+  int status = opened ? run_opened(cli, scene, options, run, steps, levels, &output) : spore_cli_fail(error);
+  spore_output_clear(&output);
+  return status;
 }
 
 int spore_command_run(SporeCli *cli, int argc, char **argv) {
@@ -189,7 +210,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
          "(monitor.unsolved says of which body, and why), and with --realtime where the steps did not keep pace."),
       1,
       1,
-      members};
+      members,
+      spore_output_describe};
   RunOptions options = {.steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time"), "S"},
@@ -200,6 +222,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
        N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
+      SPORE_OUTPUT_OPTION_ENTRIES(options.output),
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
@@ -213,6 +236,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
     else status = run(cli, argv[1], &options);
   }
   spore_scene_options_clear(&options.scene);
+  spore_output_options_clear(&options.output);
   g_free(options.time);
   g_free(options.record);
   g_strfreev(options.level);
