@@ -96,6 +96,21 @@ def a_ball_falls_freely():
 
 
 @check
+def the_report_says_errors_and_depths():
+    """--json: the estimated local error of free fall by implicit Euler is g h^2 / 2; depth and force are the largest of all steps."""
+    fall = json.loads(spore("run", MINIMAL, "--steps", 70, "--json").stdout)
+    assert fall["local_error"]["samples"] == 2 and fall["local_error"]["body"] == "ball" and fall["contacts"]["depth_max_m"] == 0
+    assert abs(fall["local_error"]["max"] - G * 0.001**2 / 2) < 1e-12 and abs(fall["local_error"]["mean"] - fall["local_error"]["max"]) < 1e-12
+    none = json.loads(spore("run", MINIMAL, "--steps", 2, "--json").stdout)["local_error"]
+    assert none == {"samples": 0, "mean": None, "max": None, "body": None}
+    hit = json.loads(spore("run", MINIMAL, "--steps", 300, "--json", "--output", "n.csv", "--quantities", "contacts").stdout)
+    with open(WORK / "n.csv", newline="") as opened:
+        rows = [[float(cell) for cell in row] for row in list(csv.reader(opened))[1:]]
+    assert hit["contacts"]["depth_max_m"] == max(row[2] for row in rows) > 0 and hit["contacts"]["force_max_N"] == max(row[3] for row in rows) > 0
+    assert hit["contacts"]["max"] == max(row[1] for row in rows)
+
+
+@check
 def what_rests_weighs_on_the_floor():
     """At rest the reaction on the floor is m g; so is the sum of the contacts' normal forces where they are vertical."""
     one = scene("rest.spore", f"0 {-G} 0", 'time_step="0.001" sleep_speed="0"',
