@@ -63,9 +63,13 @@ static void catch_signals(void) {
   sigaction(SIGTERM, &action, NULL);
 }
 
-static char *describe_report(const SporeReportMember *members) {
-  GString *text = g_string_new(_("Members of the object that --json prints:"));
-  for (; members->name; members++) g_string_append_printf(text, "\n  %-21s %s", members->name, _(members->doc));
+static char *describe(const SporeCommandInfo *info) {
+  g_autofree char *more = info->describe ? info->describe() : NULL;
+  GString *text = g_string_new(more);
+  if (more) g_string_append(text, "\n\n");
+  g_string_append(text, _("Members of the object that --json prints:"));
+  for (const SporeReportMember *members = info->report; members->name; members++)
+    g_string_append_printf(text, "\n  %-21s %s", members->name, _(members->doc));
   return g_string_free(text, FALSE);
 }
 
@@ -80,7 +84,7 @@ int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOpt
       {"quiet", 'q', 0, G_OPTION_ARG_NONE, &cli->quiet, N_("Print errors only"), NULL},
       G_OPTION_ENTRY_NULL};
   g_autoptr(GOptionContext) context = g_option_context_new(info->arguments);
-  g_autofree char *description = describe_report(info->report);
+  g_autofree char *description = describe(info);
   g_option_context_set_summary(context, _(info->summary));
   g_option_context_set_description(context, description);
   GOptionGroup *group = g_option_group_new(NULL, NULL, NULL, data, NULL);

@@ -35,6 +35,7 @@ typedef struct SporeCommandInfo {
   const char *summary;             /* translatable */
   int minimum, maximum;            /* number of plain arguments */
   const SporeReportMember *report; /* ends with one without a name; printed by --help */
+  char *(*describe)(void);         /* what else --help says, translated, g_free; NULL: nothing */
 } SporeCommandInfo;
 
 /* Reads options (entries end with G_OPTION_ENTRY_NULL; --json, --quiet and --help are added) and leaves the plain

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/run_output.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
@@ -11,8 +12,8 @@
 
 #define USUAL_STEPS 1000
 #define NOT_GIVEN G_MININT64
-#define ENERGY_LOOKS 1000 /* a run; few enough to cost nothing */
-#define MOST_STEPS 9e15   /* in --time: up to here a double counts one by one */
+#define PROGRESS_REPORTS 1000 /* a run */
+#define MOST_STEPS 9e15       /* in --time: up to here a double counts one by one */
 
 typedef struct RunOptions {
   char *time;
@@ -22,6 +23,7 @@ typedef struct RunOptions {
   char **level;
   int threads;
   SporeSceneOptions scene;
+  SporeOutputOptions output;
 } RunOptions;
 
 /* The devices' input. */
@@ -42,31 +44,39 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
   return TRUE;
 }
 
-/* recording: NULL, or a track with a channel for each active body. pace: NULL, or the clock that paces the steps. */
-static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, GArray *levels,
-                                    SporePace *pace, Recording *recording) {
+/* What goes on beside the steps. */
+typedef struct Beside {
+  double dt_s;
+  GArray *levels;
+  SporePace *pace;      /* the clock that paces the steps; NULL: none */
+  Recording *recording; /* with a channel for each active body; NULL: nothing is recorded */
+  SporeOutput *output;
+} Beside;
+
+static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, const Beside *beside) {
+  SporePace *pace = beside->pace;
   SporeRunStatistics statistics;
-  spore_run_statistics_start(&statistics, world);
-  gint64 stride = MAX(1, steps / ENERGY_LOOKS);
+  spore_run_statistics_start(&statistics, world, beside->dt_s);
+  gint64 stride = MAX(1, steps / PROGRESS_REPORTS);
   if (pace) spore_pace_start(pace, spore_world_time_s(world), 1);
   for (gint64 done = 1; done <= steps && !spore_cli_interrupted(); done++) {
     if (pace) spore_pace_begin(pace, spore_pace_due_ns(pace, spore_world_time_s(world)));
-    spore_level_changes_post(levels, world);
+    spore_level_changes_post(beside->levels, world);
     spore_world_step(world);
     if (spore_world_cancelled(world)) break;
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);
-    if (recording && !record_inputs(world, &recording->track)) {
-      recording->lost = TRUE;
+    if (beside->recording && !record_inputs(world, &beside->recording->track)) {
+      beside->recording->lost = TRUE;
       break;
     }
-    if (done % stride == 0 || done == steps) {
-      spore_run_statistics_energy(&statistics, world);
+    if (!spore_output_step(beside->output, (guint64)done)) break;
+    if (done % stride == 0 || done == steps)
       spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
-    }
     if (pace) spore_pace_sleep_until(spore_pace_due_ns(pace, spore_world_time_s(world)));
   }
+  spore_run_statistics_energy(&statistics, world);
   return statistics;
 }
 
@@ -109,32 +119,51 @@ static gboolean count_steps(const RunOptions *options, double dt_s, gint64 *step
   return TRUE;
 }
 
-static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
-  GError *error = NULL;
-  if (options->record && (!spore_cli_has_room(options->record, scene, &error) ||
-                          (options->scene.input && !spore_cli_has_room(options->record, options->scene.input, &error))))
-    return spore_cli_fail(error);
-  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
-  if (!run) return spore_cli_fail(error);
-  SporeWorld *world = run->simulation->world;
-  g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
-  if (!levels) return spore_cli_fail(error);
-  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  gint64 steps = 0;
-  if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
+/* What can be refused before the scene is opened. */
+static gboolean check_files(const char *scene, const RunOptions *options, GError **error) {
+  const char *record = options->record, *input = options->scene.input;
+  if (record && !(spore_cli_has_room(record, scene, error) && (!input || spore_cli_has_room(record, input, error))))
+    return FALSE;
+  return spore_output_check(&options->output, scene, input, record, error);
+}
+
+/* Runs what was opened, and writes what was asked for. */
+static int run_opened(SporeCli *cli, const char *scene, const RunOptions *options, SporeWorld *world, gint64 steps,
+                      Beside *beside) {
   Recording recording = {0};
   if (options->record && !add_channels(world, &recording.track)) {
     spore_track_clear(&recording.track);
     return spore_cli_usage(_("--record: not enough memory"));
   }
-  g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
-  if (pace) spore_world_set_budget(world, 1e6 * dt_s);
-  SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL);
+  if (options->record) beside->recording = &recording;
+  g_autofree SporePace *pace = beside->pace = options->realtime ? g_new(SporePace, 1) : NULL;
+  if (pace) spore_world_set_budget(world, 1e6 * beside->dt_s);
+  SporeRunStatistics result = run_steps(cli, world, steps, beside);
   int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
-  status = MAX(status, saved);
+  int written = spore_output_save(cli, beside->output, scene);
+  status = MAX(status, MAX(saved, written));
   spore_track_clear(&recording.track);
+  spore_run_statistics_clear(&result);
   return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
+}
+
+static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
+  GError *error = NULL;
+  if (!check_files(scene, options, &error)) return spore_cli_fail(error);
+  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
+  if (!run) return spore_cli_fail(error);
+  g_autoptr(GArray) levels = spore_level_changes_parse(run->simulation->world, options->level, &error);
+  if (!levels) return spore_cli_fail(error);
+  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
+  gint64 steps = 0;
+  if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
+  SporeOutput output;
+  Beside beside = {.dt_s = dt_s, .levels = levels, .output = &output};
+  gboolean opened = spore_output_open(&output, &options->output, run, &error);
+  int status = opened ? run_opened(cli, scene, options, run->simulation->world, steps, &beside) : spore_cli_fail(error);
+  spore_output_clear(&output);
+  return status;
 }
 
 int spore_command_run(SporeCli *cli, int argc, char **argv) {
@@ -144,15 +173,21 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"time_s", N_("simulated time, s")},
       {"dof", N_("degrees of freedom: velocity components that physics moves")},
       {"spheres", N_("number of collision spheres")},
-      {"contacts", N_("a step, of bodies that are awake: mean, max")},
+      {"contacts", N_("a step, of bodies that are awake: mean, max; depth_max_m (the deepest, when a step began), "
+                      "force_max_N (sum of the normal forces of all)")},
       {"step_us", N_("time that a step took, us: median, p99, max")},
       {"stages", N_("of a step: name, median_us, share of the step")},
       {"asleep",
        N_("number of bodies asleep at the end: at rest, and costing nothing until something that moves touches them")},
       {"energy", N_("kinetic, elastic, of gravity and of contacts together, J: start, end, max_drift (largest "
-                    "difference from the start)")},
+                    "difference from the start; looked at every 64 steps, and at the end)")},
       {"solver", N_("iterations of implicit steps: newton_mean, newton_max, linear_mean, linear_max, and residual_max, "
                     "relative")},
+      {"local_error",
+       N_("error in position that a step made, estimated every 64 steps for the body that is worst, m: samples, mean, "
+          "max, body (of max). It is how far the step is from the trapezoidal rule, and that rule from its next term "
+          "(root mean square over the body's mass, without turning): close to the error of a method of first order, "
+          "above that of a better one; where contacts set in, it tells of the impact")},
       {"links", N_("where there are any but pins: each one's name, load_N (what it held at the end), drift_m (how far "
                    "what it holds together is apart), broken (1: for good)")},
       {"tools", N_("where instruments do more than touch: each one's name, opening_rad, squeeze_Nm (torque against "
@@ -189,7 +224,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
          "(monitor.unsolved says of which body, and why), and with --realtime where the steps did not keep pace."),
       1,
       1,
-      members};
+      members,
+      spore_output_describe};
   RunOptions options = {.steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time"), "S"},
@@ -200,6 +236,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
        N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
+      SPORE_OUTPUT_OPTION_ENTRIES(options.output),
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
@@ -213,6 +250,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
     else status = run(cli, argv[1], &options);
   }
   spore_scene_options_clear(&options.scene);
+  spore_output_options_clear(&options.output);
   g_free(options.time);
   g_free(options.record);
   g_strfreev(options.level);

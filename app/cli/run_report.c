@@ -2,6 +2,7 @@
 #include "app/cli/run_report.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 
 static void report_stages(SporeCli *cli, const SporePlan *plan) {
   double total_us = 0;
@@ -36,6 +37,21 @@ static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
         cli, _("solver: %.1f Newton and %.1f linear iterations a step (most %zu and %zu), residual %.1e at worst\n"),
         spore_run_statistics_mean(result, result->newton), spore_run_statistics_mean(result, result->linear),
         result->newton_max, result->linear_max, result->residual_max);
+}
+
+static void report_local_error(SporeCli *cli, const SporeWorld *world, const SporeLocalError *estimate) {
+  gboolean known = estimate->most_body != SPORE_NO_BODY;
+  const char *body = known ? spore_world_body_name(world, estimate->most_body) : NULL;
+  double mean = estimate->samples > 0 ? estimate->sum / (double)estimate->samples : NAN;
+  spore_cli_open(cli, "local_error");
+  spore_cli_count(cli, "samples", (gint64)estimate->samples);
+  spore_cli_number(cli, "mean", mean);
+  spore_cli_number(cli, "max", estimate->samples > 0 ? estimate->most : NAN);
+  spore_cli_text(cli, "body", body);
+  spore_cli_close(cli);
+  if (known)
+    spore_cli_say(cli, _("local error of a step, estimated: mean %.2g m, worst %.2g m (%s)\n"), mean, estimate->most,
+                  body);
 }
 
 typedef bool (*BodyTest)(const SporeWorld *world, uint32_t body);
@@ -254,6 +270,8 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   spore_cli_open(cli, "contacts");
   spore_cli_number(cli, "mean", spore_run_statistics_mean(result, result->contacts));
   spore_cli_count(cli, "max", (gint64)result->contacts_max);
+  spore_cli_number(cli, "depth_max_m", result->depth_max);
+  spore_cli_number(cli, "force_max_N", result->force_max);
   spore_cli_close(cli);
   spore_cli_open(cli, "step_us");
   spore_cli_number(cli, "median", step.median_us);
@@ -273,10 +291,12 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   spore_cli_number(cli, "end", result->energy_end);
   spore_cli_number(cli, "max_drift", result->energy_drift);
   spore_cli_close(cli);
-  spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
-                spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->energy_start,
-                result->energy_end);
+  spore_cli_say(cli,
+                _("contacts: mean %.1f, most %zu, deepest %.2g m; energy: %.6g J at the start, %.6g J at the end\n"),
+                spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->depth_max,
+                result->energy_start, result->energy_end);
   report_solver(cli, result);
+  report_local_error(cli, world, &result->local_error);
   report_links(cli, world);
   report_tools(cli, world);
   report_levels(cli, world);

@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/number.h"
 #include "core/base/text.h"
+#include "core/measure/text_buffer.h"
 
 /* Pixels. */
 #define PANEL_WIDTH 480.
@@ -22,28 +23,10 @@
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 #define COLOURS (sizeof colours / sizeof colours[0])
 
-typedef struct Text {
-  char *bytes;
-  size_t size, capacity;
-  bool failed;
-} Text;
+typedef SporeTextBuffer Text;
 
-static void add_bytes(Text *text, const char *bytes, size_t size) {
-  if (text->failed) return;
-  if (text->size + size + 1 > text->capacity) {
-    size_t capacity = 2 * (text->size + size + 1) + 4096;
-    char *grown = spore_reallocate(text->bytes, text->capacity, capacity, 1);
-    if (!grown) {
-      text->failed = true;
-      return;
-    }
-    text->bytes = grown, text->capacity = capacity;
-  }
-  memcpy(text->bytes + text->size, bytes, size);
-  text->bytes[text->size += size] = '\0';
-}
-
-static void add(Text *text, const char *string) { add_bytes(text, string, strlen(string)); }
+static void add_bytes(Text *text, const char *bytes, size_t size) { spore_text_add_bytes(text, bytes, size); }
+static void add(Text *text, const char *string) { spore_text_add(text, string); }
 
 static void add_escaped(Text *text, const char *string, size_t size) {
   for (const char *end = string + size; string < end; string++) {
@@ -55,10 +38,7 @@ static void add_escaped(Text *text, const char *string, size_t size) {
 }
 
 /* A length to a hundredth of a pixel. */
-static void add_number(Text *text, double value) {
-  char digits[SPORE_NUMBER_TEXT];
-  add_bytes(text, digits, (size_t)spore_number_format(round(value * 100) / 100, digits));
-}
+static void add_number(Text *text, double value) { spore_text_add_number(text, round(value * 100) / 100); }
 
 /* name="value" */
 static void add_attribute(Text *text, const char *name, double value) {

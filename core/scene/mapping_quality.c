@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/mesh/bvh.h"
-#include "core/mesh/common.h"
-#include "core/scene/schema_fields.h"
+#include "core/scene/body_shape.h"
 
 #define ON 1e-6 /* of the size: numbers in files are rounded */
 
@@ -36,65 +34,13 @@ static gboolean find_points(SporeDocument *document, const SporeObject *body, Sp
   return points->count > 0;
 }
 
-/* The shape that a model was made of. */
-typedef struct Shape {
-  SporeGeometryKind kind;
-  SporeBvh *surface; /* the surface itself, or the boundary of tetrahedra */
-  const SporeCurve *curve;
-  double size;
-} Shape;
-
-static gboolean take_boundary(Shape *shape, const SporeTetrahedralMesh *cells, SporeError *fault) {
-  SporeTriangleMesh boundary = {cells->vertex_count, 0, cells->vertices, NULL};
-  if (spore_tetrahedral_mesh_boundary(cells, &boundary.triangles, &boundary.triangle_count))
-    shape->surface = spore_bvh_create(&boundary, fault);
-  spore_free(boundary.triangles);
-  shape->size = spore_mesh_diagonal(cells->vertices, cells->vertex_count, 3);
-  return shape->surface != NULL;
-}
-
-static gboolean take_shape(SporeDocument *document, const SporeObject *body, SporeGeometryKind kind, Shape *shape) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  SporeObject *asset = spore_object_reference(mechanical, "geometry");
-  SporeError fault = SPORE_ERROR_INIT;
-  shape->kind = kind;
-  if (!asset || kind == SPORE_GEOMETRY_NONE) return FALSE;
-  if (kind == SPORE_GEOMETRY_TETRAHEDRA) {
-    const SporeTetrahedralMesh *cells = spore_document_tetrahedra(document, asset, NULL);
-    return cells && take_boundary(shape, cells, &fault);
-  }
-  if (kind == SPORE_GEOMETRY_CURVE) {
-    shape->curve = spore_document_curve(document, asset, NULL);
-    if (shape->curve) shape->size = spore_mesh_diagonal(shape->curve->points, shape->curve->count, 4);
-    return shape->curve != NULL;
-  }
-  const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, NULL);
-  if (mesh) shape->surface = spore_bvh_create(mesh, &fault);
-  if (mesh) shape->size = spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
-  return shape->surface != NULL;
-}
-
-/* How far p lies outside the tube around a curve. */
-static double off_curve(const SporeCurve *curve, SporeVec3 p) {
-  double least = INFINITY;
-  for (gsize i = 1; i < curve->count; i++) {
-    const double *from = curve->points + 4 * (i - 1), *to = from + 4;
-    SporeVec3 a = spore_vec3_load(from), side = spore_vec3_sub(spore_vec3_load(to), a);
-    double along = spore_vec3_dot(spore_vec3_sub(p, a), side) / spore_vec3_dot(side, side);
-    along = fmin(fmax(along, 0), 1);
-    double radius = from[3] + along * (to[3] - from[3]);
-    least = fmin(least, spore_vec3_distance(p, spore_vec3_add_scaled(a, along, side)) - radius);
-  }
-  return fmax(least, 0);
-}
-
-static double off_shape(const Shape *shape, SporeVec3 p) {
-  if (shape->curve) return off_curve(shape->curve, p);
+/* How far p lies off: of an open surface on either side. */
+static double off_shape(const SporeShape *shape, SporeVec3 p) {
   if (shape->kind == SPORE_GEOMETRY_SURFACE) return spore_bvh_distance(shape->surface, p, NULL, NULL);
-  return fmax(-spore_bvh_depth(shape->surface, p), 0);
+  return spore_shape_outside(shape, p, NULL);
 }
 
-static void measure_places(const Shape *shape, const Points *points, SporeMappingQuality *quality) {
+static void measure_places(const SporeShape *shape, const Points *points, SporeMappingQuality *quality) {
   quality->size = shape->size;
   for (gsize i = 0; i < points->count; i++) {
     double off = off_shape(shape, point(points, i)), radius = points->stride > 3 ? points->first[4 * i + 3] : 0;
@@ -124,7 +70,7 @@ static gboolean measure_motion(const SporeModel *model, const Points *points, Sp
 gboolean spore_mapping_quality_measure(const SporeSimulation *simulation, SporeDocument *document, SporeObject *body,
                                        SporeMappedUnit unit, SporeMappingQuality *quality, GError **error) {
   Points points = {0};
-  Shape shape = {0};
+  SporeShape shape = {0};
   guint32 index = spore_simulation_body_of(simulation, body);
   *quality = (SporeMappingQuality){0};
   if (index == SPORE_NO_BODY || spore_world_body_role(simulation->world, index) != SPORE_PASSIVE) return FALSE;
@@ -132,7 +78,7 @@ gboolean spore_mapping_quality_measure(const SporeSimulation *simulation, SporeD
   if (model->type->particles || !find_points(document, body, unit, &points)) return FALSE;
   quality->count = points.count;
   if (!measure_motion(model, &points, quality, error)) return FALSE;
-  if (take_shape(document, body, model->type->geometry, &shape)) measure_places(&shape, &points, quality);
-  spore_bvh_free(shape.surface);
+  if (spore_shape_of_geometry(document, body, model->type->geometry, &shape)) measure_places(&shape, &points, quality);
+  spore_shape_clear(&shape);
   return TRUE;
 }

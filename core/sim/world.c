@@ -103,6 +103,21 @@ const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t inde
   return &body->device.input;
 }
 
+const SporeDeviceCommand *spore_world_feedback(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].device.device ? &world->bodies[body].device.command : NULL;
+}
+
+const double *spore_world_reaction(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->state.reaction + 6 * (size_t)body;
+}
+
+SporePose spore_world_start_pose(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].rest_pose;
+}
+
 size_t spore_world_body_count(const SporeWorld *world) { return world->body_count; }
 
 uint32_t spore_world_find_body(const SporeWorld *world, const char *name) {

@@ -143,6 +143,14 @@ void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *devic
  * *time_s: the simulated time of the input. NULL: the body has no device, or the device has not given any input yet. */
 const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t body, double *time_s);
 
+/* What the device of an active body is told of the last step: the force and torque on the body, within the limits of
+ * the guard, and the force on the grip. NULL: the body has no device. Valid until the next step. */
+const SporeDeviceCommand *spore_world_feedback(const SporeWorld *world, uint32_t body);
+/* Force (N) and torque (N m) of contacts and links on the body in the last step, 6 doubles.
+ * Torques are about the origin of a frame; of a body of nodes, about where that origin was at time 0. A body asleep
+ * keeps what it had when it fell asleep. Valid until the next step. */
+const double *spore_world_reaction(const SporeWorld *world, uint32_t body);
+
 /* Number of bodies. */
 size_t spore_world_body_count(const SporeWorld *world);
 /* Index of the body of that name; SPORE_NO_BODY: there is none. */
@@ -191,6 +199,8 @@ void spore_world_set_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
  * lies where the body cannot carry it. */
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
                      SporeError *error);
+/* Pose of the body's frame at time 0. Any thread may ask. */
+SporePose spore_world_start_pose(const SporeWorld *world, uint32_t body);
 /* Where the body begins in q of a snapshot, in doubles. Any thread may ask. */
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
 /* Index of the body's first tetrahedron in SporeCuts.corners of a snapshot. SIZE_MAX: no cut can split nodes of the
@@ -426,6 +436,8 @@ typedef struct SporeStepCounts {
   size_t newton_iterations, linear_iterations, force_evaluations;
   double residual; /* largest relative residual of the equations that islands solved, evaluated again apart from the
                       solver; 0 for explicit ones */
+  double contact_depth; /* m: of the deepest contact, when the step began; 0: no spheres overlap */
+  double contact_force; /* N: sum of the normal forces of all contacts */
 } SporeStepCounts;
 /* Counts of the last step; all 0 before the first one. */
 SporeStepCounts spore_world_counts(const SporeWorld *world);

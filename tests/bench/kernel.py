@@ -78,4 +78,20 @@ def bench_step(build, work):
         yield row("step", case, float(us), "us", floors.get(case))
 
 
-BENCHES = {"net": bench_net, "scenes": bench_scenes, "step": bench_step}
+MONITORED = {"minimal": 20000, "table1-rigid": 2000, "table1-mass-spring": 1000, "table1-deformable": 300, "table1-fluid": 300, "table1-spline-1d": 1000,
+             "table1-spline-2d": 1000}
+
+
+def bench_monitor(build, work):
+    """What measuring a run adds to a step: the median of 20 ratios, less 1, with the interval of that median."""
+    for scene, steps in MONITORED.items():
+        done = subprocess.run([build / "tests/bench/bench_monitor", SCENES / f"{scene}.spore", str(steps)], capture_output=True, text=True, check=True)
+        step, ratio, low, high, more = map(float, re.match(r"step: (\S+) us, ratio (\S+) from (\S+) to (\S+), more (\S+) us", done.stdout).groups())
+        case = f"{scene}, {step:.3g} us a step, {100 * (low - 1):.1f} to {100 * (high - 1):.1f} %"
+        if step >= 20:
+            yield row("monitor", case, 100 * (ratio - 1), "%", 2)
+        else:
+            yield row("monitor", case, more, "us", 0.4)
+
+
+BENCHES = {"net": bench_net, "scenes": bench_scenes, "step": bench_step, "monitor": bench_monitor}

@@ -1365,7 +1365,7 @@ def writers():
                 ("surface ball.off --nodes 100 -o", "w.off"), ("centreline tube.off -o", "w.curve"),
                 ("spheres ball.off --counts 4,8 --csv", "w.csv"), ("import ball.off --unit m -o", "w.spore"),
                 (f"edit {organ()} --probe -o", "w.spore"), ("centreline tube.off --scene", "w.spore"),
-                (f"run {grasper()} --steps 20 --record", "w.track")]
+                (f"run {grasper()} --steps 20 --record", "w.track"), (f"run {soft_ball()} --steps 5 --output", "w.csv")]
     return commands + ([(f"render {soft_ball()} --size 64x64 -o", "w.png")] if "render" in FEATURES else [])
 
 

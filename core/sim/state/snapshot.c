@@ -4,6 +4,7 @@
  * writes the next state into a buffer of its own. States are numbered, and each body keeps the number of the state in
  * which it last changed. A body that has not changed since the buffer was last written need not be copied. */
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/base/hash.h"
@@ -70,6 +71,16 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].cuts.corners);
     spore_free(snapshots->buffers[i].lines.breaks);
     spore_free(snapshots->buffers[i].lines.span_count);
+  }
+}
+
+static void sum_contacts(SporeWorld *world) {
+  SporeStepCounts *counts = &world->state.counts;
+  counts->contact_depth = counts->contact_force = 0;
+  for (size_t i = 0; i < world->contact.count; i++) {
+    const SporeContactTerm *term = &world->contact.terms[i];
+    counts->contact_depth = fmax(counts->contact_depth, term->depth);
+    counts->contact_force += spore_vec3_dot(term->force, term->normal);
   }
 }
 
@@ -182,6 +193,7 @@ void spore_world_publish(SporeWorld *world) {
   for (size_t b = 0; snapshot->level && b < world->body_count; b++)
     snapshot->level[b] = (uint8_t)world->bodies[b].grade;
   copy_contacts(world, snapshot);
+  sum_contacts(world);
   snapshot->counts = world->state.counts;
   snapshot->tools = world->tools.counts;
   snapshot->energy = recent_energy(world);

@@ -1,0 +1,116 @@
+/* Rows of a measurement, as CSV and as JSON. */
+#include "core/measure/series.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/measure/text_buffer.h"
+
+#define FIRST_ROWS 256
+
+static size_t width(const SporeSeries *series) {
+  size_t count;
+  spore_measurement_columns(series->measurement, &count);
+  return count;
+}
+
+bool spore_series_add(SporeSeries *series) {
+  size_t columns = width(series);
+  double *values =
+      spore_room_for_one(series->values, series->row_count, &series->capacity, FIRST_ROWS, columns * sizeof *values);
+  if (!values) return false;
+  series->values = values;
+  spore_measurement_take(series->measurement, values + columns * series->row_count++);
+  return true;
+}
+
+void spore_series_clear(SporeSeries *series) {
+  spore_free(series->values);
+  *series = (SporeSeries){.measurement = series->measurement};
+}
+
+static char *finish(SporeTextBuffer *text, size_t *size) {
+  *size = text->size;
+  if (!text->failed) return text->bytes;
+  spore_free(text->bytes);
+  return NULL;
+}
+
+/* A field in quotes where it needs them. */
+static void add_field(SporeTextBuffer *text, const char *name, const char *unit) {
+  bool quoted = strpbrk(name, ",\"\r\n") != NULL;
+  if (quoted) spore_text_add(text, "\"");
+  for (; *name; name++) spore_text_add_bytes(text, *name == '"' ? "\"\"" : name, *name == '"' ? 2 : 1);
+  if (*unit) {
+    spore_text_add(text, " [");
+    spore_text_add(text, unit);
+    spore_text_add(text, "]");
+  }
+  if (quoted) spore_text_add(text, "\"");
+}
+
+char *spore_series_csv(const SporeSeries *series, size_t *size) {
+  SporeTextBuffer text = {0};
+  size_t count;
+  const SporeColumn *columns = spore_measurement_columns(series->measurement, &count);
+  for (size_t c = 0; c < count; c++) {
+    if (c > 0) spore_text_add(&text, ",");
+    add_field(&text, columns[c].name, columns[c].unit);
+  }
+  spore_text_add(&text, "\r\n");
+  for (size_t i = 0; i < series->row_count * count; i++) {
+    spore_text_add_number(&text, series->values[i]);
+    spore_text_add(&text, (i + 1) % count == 0 ? "\r\n" : ",");
+  }
+  return finish(&text, size);
+}
+
+static void add_string(SporeTextBuffer *text, const char *string) {
+  spore_text_add(text, "\"");
+  for (; *string; string++) {
+    char escaped[8];
+    if ((unsigned char)*string < ' ' || *string == '"' || *string == '\\') {
+      snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)*string);
+      spore_text_add(text, escaped);
+    } else {
+      spore_text_add_bytes(text, string, 1);
+    }
+  }
+  spore_text_add(text, "\"");
+}
+
+static void add_json_number(SporeTextBuffer *text, double value) {
+  if (isfinite(value)) spore_text_add_number(text, value);
+  else spore_text_add(text, "null");
+}
+
+static void add_json_columns(SporeTextBuffer *text, const SporeColumn *columns, size_t count) {
+  for (size_t c = 0; c < count; c++) {
+    spore_text_add(text, c > 0 ? ",\n    {\"name\": " : "\n    {\"name\": ");
+    add_string(text, columns[c].name);
+    spore_text_add(text, ", \"unit\": ");
+    add_string(text, columns[c].unit);
+    spore_text_add(text, "}");
+  }
+}
+
+char *spore_series_json(const SporeSeries *series, const char *scene, double dt_s, size_t *size) {
+  SporeTextBuffer text = {0};
+  size_t count;
+  const SporeColumn *columns = spore_measurement_columns(series->measurement, &count);
+  spore_text_add(&text, "{\n  \"scene\": ");
+  add_string(&text, scene);
+  spore_text_add(&text, ",\n  \"dt_s\": ");
+  add_json_number(&text, dt_s);
+  spore_text_add(&text, ",\n  \"columns\": [");
+  add_json_columns(&text, columns, count);
+  spore_text_add(&text, "\n  ],\n  \"rows\": [");
+  for (size_t i = 0; i < series->row_count * count; i++) {
+    spore_text_add(&text, i % count > 0 ? ", " : i > 0 ? "],\n    [" : "\n    [");
+    add_json_number(&text, series->values[i]);
+  }
+  spore_text_add(&text, series->row_count > 0 ? "]\n  ]\n}\n" : "]\n}\n");
+  return finish(&text, size);
+}
