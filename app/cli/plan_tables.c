@@ -87,12 +87,9 @@ static void report_pin(SporeCli *cli, const SporeObject *pin, const char *toward
                   side->held, body);
   else
     spore_cli_say(cli,
-                  side->beyond_m > 0
-                      ? _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
-                          "beyond the pin's radius\n")
-                      : _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
-                          "within the pin's radius\n"),
-                  spore_object_name(pin), side->held, body, fabs(side->beyond_m));
+                  _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
+                    "within the pin's radius\n"),
+                  spore_object_name(pin), side->held, body, fmax(0, -side->beyond_m));
 }
 
 void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {

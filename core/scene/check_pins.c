@@ -1,6 +1,6 @@
-/* Pins on lines that hold much less or much more of the line than their radius says. */
+/* Pins on lines that hold much less of the line than their radius says. They never hold more: a line is held where all
+ * control points that weigh on it are, and it runs between those. */
 #include <glib/gi18n.h>
-#include <math.h>
 #include <string.h>
 
 #include "core/scene/check_private.h"
@@ -10,14 +10,11 @@
 
 static void check_side(SporeCheck *check, SporeObject *pin, const SporePinnedSide *side) {
   const char *body = spore_object_name(spore_object_reference(pin, "body"));
-  if (side->turns || 3 * fabs(side->beyond_m) <= SHOWN_SHARE * side->free_m) return;
-  g_autofree char *distance = spore_length_text(fabs(side->beyond_m));
+  if (side->turns || -3 * side->beyond_m <= SHOWN_SHARE * side->free_m) return;
+  g_autofree char *distance = spore_length_text(-side->beyond_m);
   spore_check_say(check, SPORE_NOTE, pin, _("give the body more control points, or choose another radius"),
-                  side->beyond_m > 0
-                      ? _("\"%s\" holds %zu control points of \"%s\", which bends as if it were clamped %s "
-                          "beyond the pin's radius")
-                      : _("\"%s\" holds %zu control points of \"%s\", which bends as if it were clamped %s "
-                          "within the pin's radius"),
+                  _("\"%s\" holds %zu control points of \"%s\", which bends as if it were clamped %s within the pin's "
+                    "radius"),
                   spore_object_name(pin), side->held, body, distance);
 }
 

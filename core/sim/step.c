@@ -100,7 +100,7 @@ static const SporeStageType stages[] = {
     {"link", has_springs, spore_world_link, links, /**/
      N_("links, jaws or a viewer's pull tie bodies"), N_("no link ties bodies, and nobody pulls at one")},
     {"islands", has_passive, spore_world_find_islands, islands, /**/
-     N_("bodies that touch are solved together"), N_("no body moves by physics")},
+     N_("bodies that touch or are tied are solved together"), N_("no body moves by physics")},
     {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
      N_("passive bodies move by physics"), N_("no body moves by physics")},
     {"verify", may_solve, spore_world_verify, degrees_of_freedom, /**/
@@ -112,7 +112,8 @@ static const SporeStageType stages[] = {
     {"accept", has_moving, spore_world_accept, bodies, /**/
      N_("bodies that move have a next state"), N_("no body moves")},
     {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
-     N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out")},
+     N_("particles come and go: by suction, by emitters, or as they dissolve"),
+     N_("nothing sucks particles away or lets them out")},
     {"split_nodes", may_split, spore_world_split_nodes, tetrahedra, /**/
      N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart")},
     {"advance", always, spore_world_advance, bodies, /**/
@@ -124,7 +125,8 @@ static const SporeStageType stages[] = {
     {"tear_holds", has_holds, spore_world_tear_holds, tools, /**/
      N_("what jaws hold may tear away"), N_("no jaws hold anything")},
     {"watch_energy", spore_world_may_gain_energy, spore_world_watch_energy, bodies, /**/
-     N_("some methods may make energy out of nothing"), N_("no method makes energy out of nothing")},
+     N_("some methods may make energy out of nothing"),
+     N_("no method makes energy out of nothing, or static moves a body and keeps none")},
     {"report", has_passive, spore_world_report_islands, islands, /**/
      N_("what went wrong is counted and said"), N_("no body moves by physics")},
     {"refine_splines", may_refine, spore_world_refine_splines, lines, /**/
@@ -136,14 +138,7 @@ _Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE
 
 /* Work besides stages that a world does not need. */
 
-/* Contacts and links may need an implicit step: see multirate.c. */
-static bool explicit_alone(const SporeWorld *world) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_PASSIVE && spore_integrator(body->method.integrator)->implicit) return false;
-  }
-  return has_passive(world) && !has_terms(world);
-}
+static bool none_solves(const SporeWorld *world) { return has_passive(world) && !may_solve(world); }
 
 static bool has_unmovable_spheres(const SporeWorld *world) {
   return may_touch(world) && world->contact.spheres.static_count > 0;
@@ -170,7 +165,7 @@ static const struct {
     {N_("collision"), no_contact, N_("no two bodies can touch")},
     {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start")},
     {N_("integration"), no_passive, N_("no body moves by physics")},
-    {N_("the nonlinear solver"), explicit_alone,
+    {N_("the nonlinear solver"), none_solves,
      N_("every body is integrated explicitly, and nothing touches or ties them")},
     {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out")},
     {N_("tools"), no_tools, N_("no instrument does more than touch")},
