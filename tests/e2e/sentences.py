@@ -180,6 +180,11 @@ def sheet_of(points):
                  assets=SHEET, solver='time_step="0.002" integrator="implicit_euler"')
 
 
+def pinned_sheet(points, radius, x="0"):
+    return scene(body("sheet", f'<mechanical geometry="sheet"><spline_2d control_points_u="{points}" control_points_v="{points}"/></mechanical>'),
+                 assets=SHEET, links=f'<pin name="p" body="sheet" point="{x} 0 0.05" radius="{radius}"/>')
+
+
 def pendulum(method):
     return scene(stone(STONE), links='<ball name="j" body_a="stone" point="0.03 0.2 0"/>', solver=f'time_step="0.004" integrator="{method}"')
 
@@ -334,6 +339,8 @@ CHECK = [
     ("\"%s\" holds %zu control points of \"%s\", which bends as if it were clamped %s within the pin's radius",
      ["give the body more control points, or choose another radius"], pinned(10, 0.02), pinned(80, 0.02)),
 
+    ("\"%s\" holds %zu control points of \"%s\", which stands still only deeper than %s within the pin's radius",
+     ["give the body more control points, or choose another radius"], pinned_sheet(13, 0.05), pinned_sheet(80, 0.03)),
     ("error_tolerance is not used: no body is integrated by tr_bdf2", ["choose tr_bdf2 as integrator, or remove error_tolerance"],
      scene(floor(), stone(), solver='error_tolerance="1e-6"'), scene(floor(), stone(), solver='error_tolerance="1e-6" integrator="tr_bdf2"')),
     ("every body is integrated explicitly: how equations are solved matters only in steps that contacts, links or recovery make implicit",
@@ -483,6 +490,10 @@ PLAN = [
     ("pin %s: holds %zu control points of %s, which can turn there\n", [], pinned(10, 0), pinned(10, 0.02)),
     ("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m within the pin's radius\n", [],
      pinned(10, 0.02), pinned(10, 0)),
+    ("pin %s: holds %zu control points of %s, which stands still deeper than %.2g m within the pin's radius\n", [],
+     pinned_sheet(40, 0.05), pinned_sheet(13, 0.01, "0.05")),
+    ("pin %s: holds %zu control points of %s, of which no place within the pin's radius stands still\n", [],
+     pinned_sheet(13, 0.01, "0.05"), pinned_sheet(40, 0.05)),
     ("(* active; the step is of the whole scene)", [], "levels", FREE),
     ("%s: %zu control points, up to %zu as it bends: %zu degrees of freedom then; %.0f kB are kept", [],
      line(10, model='most_bend="0.3" maximum_control_points="40"'), line(10)),
