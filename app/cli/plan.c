@@ -259,7 +259,9 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
        N_("pins on lines, a row for each side with a free part: name, body, side (start or end), held (control "
           "points), "
           "clamp_beyond_m (where the line bends as if it were clamped, from the end of the pin's radius; null: it can "
-          "turn there), free_m (length outside the radius)")},
+          "turn there), free_m (length outside the radius). On a sheet, side is sheet, and instead of clamp_beyond_m "
+          "there is "
+          "moves_m: how far within the radius places of it can still move (null: none stands still)")},
       {"levels",
        N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
           "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "

@@ -8,6 +8,7 @@
 
 #include "core/scene/mapping_quality.h"
 #include "core/scene/pinned_line.h"
+#include "core/scene/pinned_sheet.h"
 
 /* Points that follow a body. */
 
@@ -70,7 +71,7 @@ void spore_plan_report_mapping(SporeCli *cli, const SporeRun *run) {
   spore_cli_close_array(cli);
 }
 
-/* Pins on lines. */
+/* Pins on lines and sheets. */
 
 static void report_pin(SporeCli *cli, const SporeObject *pin, const char *towards, const SporePinnedSide *side) {
   const char *body = spore_object_name(spore_object_reference(pin, "body"));
@@ -87,12 +88,30 @@ static void report_pin(SporeCli *cli, const SporeObject *pin, const char *toward
                   side->held, body);
   else
     spore_cli_say(cli,
-                  side->beyond_m > 0
-                      ? _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
-                          "beyond the pin's radius\n")
-                      : _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
-                          "within the pin's radius\n"),
-                  spore_object_name(pin), side->held, body, fabs(side->beyond_m));
+                  _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
+                    "within the pin's radius\n"),
+                  spore_object_name(pin), side->held, body, fmax(0, -side->beyond_m));
+}
+
+static void report_sheet(SporeCli *cli, const SporeObject *pin, const SporePinnedSheet *sheet) {
+  const char *name = spore_object_name(pin), *body = spore_object_name(spore_object_reference(pin, "body"));
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", name);
+  spore_cli_text(cli, "body", body);
+  spore_cli_text(cli, "side", "sheet");
+  spore_cli_count(cli, "held", (gint64)sheet->held);
+  spore_cli_number(cli, "moves_m", sheet->still ? sheet->moves_m : NAN);
+  spore_cli_number(cli, "free_m", sheet->free_m);
+  spore_cli_close(cli);
+  if (sheet->still)
+    spore_cli_say(
+        cli,
+        _("pin %s: holds %zu control points of %s, which stands still deeper than %.2g m within the pin's radius\n"),
+        name, sheet->held, body, sheet->moves_m);
+  else
+    spore_cli_say(cli,
+                  _("pin %s: holds %zu control points of %s, of which no place within the pin's radius stands still\n"),
+                  name, sheet->held, body);
 }
 
 void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {
@@ -102,6 +121,8 @@ void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {
     SporeObject *link = spore_object_child(links, i);
     SporePinnedSide side;
     if (strcmp(spore_object_type(link)->element, "pin") != 0) continue;
+    SporePinnedSheet sheet;
+    if (spore_pinned_sheet_measure(run->simulation, link, &sheet)) report_sheet(cli, link, &sheet);
     if (spore_pinned_side_measure(run->simulation, link, -1, &side)) report_pin(cli, link, "start", &side);
     if (spore_pinned_side_measure(run->simulation, link, 1, &side)) report_pin(cli, link, "end", &side);
   }

@@ -65,7 +65,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   if (!felt && !backdrop)
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
-                    _("\"%s\" has no collision spheres: everything passes through it"), name);
+                    _("\"%s\" has no collision spheres: bodies pass through it"), name);
   if (role == SPORE_ACTIVE && !is_moved(check, body))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);
@@ -118,6 +118,15 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
                     _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
 }
 
+/* The model by which physics moves the body; NULL: physics does not move it. */
+static const SporeModelType *moving_model(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  if ((SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE || !mechanical ||
+      spore_object_child_count(mechanical) == 0)
+    return NULL;
+  return spore_object_type(spore_object_child(mechanical, 0))->model;
+}
+
 typedef gboolean (*CanBeChanged)(const SporeModelType *type);
 
 static gboolean can_be_cut(const SporeModelType *type) { return type->cut != NULL; }
@@ -128,9 +137,8 @@ static gboolean can_be_pierced(const SporeModelType *type) { return type->skin !
 static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
-    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
-    if (can(spore_object_type(spore_object_child(mechanical, 0))->model)) return TRUE;
+    const SporeModelType *type = moving_model(spore_object_child(bodies, i));
+    if (type && can(type)) return TRUE;
   }
   return FALSE;
 }
@@ -139,10 +147,8 @@ static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
 static void check_uncut(SporeCheck *check, SporeObject *scissors) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
-    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
-    const SporeModelType *type = spore_object_type(spore_object_child(mechanical, 0))->model;
-    if (type->cut || type->geometry != SPORE_GEOMETRY_TETRAHEDRA) continue;
+    const SporeModelType *type = moving_model(spore_object_child(bodies, i));
+    if (!type || type->cut || type->geometry != SPORE_GEOMETRY_TETRAHEDRA) continue;
     spore_check_say(check, SPORE_NOTE, scissors,
                     _("make it neo_hookean_tetrahedra, if it should be cut; nothing is to be done if not"),
                     _("\"%s\" passes through \"%s\", whose stiffness is that of the whole"),
@@ -168,19 +174,38 @@ static void check_bipolar(SporeCheck *check, SporeObject *bipolar) {
                   spore_object_name(bipolar));
 }
 
+/* The collision group of a body that has spheres; -1: it has none. Two bodies in a group other than 0 do not touch. */
+static int64_t group_of_felt(const SporeObject *body) {
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  gboolean felt = collision && (spore_object_text(collision, "spheres") || spore_body_has_own_spheres(body));
+  return felt ? (int64_t)spore_object_number(collision, "group") : -1;
+}
+
+/* Whether spheres of that group touch those of a body that can be pierced. */
+static gboolean stops_at_pierced(const SporeCheck *check, int64_t group) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *body = spore_object_child(bodies, i);
+    const SporeModelType *type = moving_model(body);
+    int64_t other = group_of_felt(body);
+    if (type && can_be_pierced(type) && other >= 0 && (group == 0 || other != group)) return TRUE;
+  }
+  return FALSE;
+}
+
 /* Notes a needle that has nothing to pierce or no thread to draw; warns where its own spheres would stop it. */
 static void check_needle(SporeCheck *check, SporeObject *needle) {
   const char *name = spore_object_name(needle);
   const SporeObject *body = spore_object_reference(needle, "body");
-  const SporeObject *collision = body ? spore_object_child_of(body, "collision") : NULL;
+  int64_t group = body ? group_of_felt(body) : -1;
   if (!some_body(check, can_be_pierced))
     spore_check_say(check, SPORE_NOTE, needle,
-                    _("make what is to be sewn a mass_spring_net, a deformable_surface or tetrahedra"),
+                    _("make what is to be sewn a mass_spring_net, a deformable_surface or neo_hookean_tetrahedra"),
                     _("\"%s\" has nothing to work on: no body has a model that can be pierced"), name);
   if (!spore_object_text(needle, "thread"))
     spore_check_say(check, SPORE_NOTE, needle, _("name a body along a curve that begins at its swage"),
                     _("\"%s\" draws no thread: what it has pierced comes off behind it"), name);
-  if (collision && spore_object_text(collision, "spheres"))
+  if (group >= 0 && stops_at_pierced(check, group))
     spore_check_say(check, SPORE_WARNING, needle, _("take the spheres away, or put both bodies in one group"),
                     _("the spheres of \"%s\" keep \"%s\" from what it is to pierce: its tip needs none to feel it"),
                     spore_object_name(body), name);
@@ -190,9 +215,8 @@ static void check_needle(SporeCheck *check, SporeObject *needle) {
 static void check_suction(SporeCheck *check, SporeObject *suction) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
-    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
-    if (spore_object_type(spore_object_child(mechanical, 0))->model->particles) return;
+    const SporeModelType *type = moving_model(spore_object_child(bodies, i));
+    if (type && type->particles) return;
   }
   spore_check_say(check, SPORE_NOTE, suction, _("add a fluid, or make it a probe"),
                   _("\"%s\" has nothing to take away: the scene has no fluid of particles"),

@@ -136,23 +136,6 @@ static double drop_to(const Start *start, const Ball *falling, const Ball *under
   return fmax(along - sqrt(reach * reach - beside * beside), 0);
 }
 
-/* How far the body falls until it meets another, m; HUGE_VAL: nothing unmovable lies under it. */
-static double drop_of(const Start *start, guint body, SporeVec3 down) {
-  double drop = HUGE_VAL;
-  gboolean held = FALSE;
-  for (guint i = 0; i < start->balls->len && !(held && drop <= 0); i++) {
-    const Ball *falling = &g_array_index(start->balls, Ball, i);
-    if (falling->body != body) continue;
-    for (guint j = 0; j < start->balls->len; j++) {
-      const Ball *under = &g_array_index(start->balls, Ball, j);
-      double way = drop_to(start, falling, under, down);
-      held |= isfinite(way) && role_of(start, under->body) == SPORE_UNMOVABLE;
-      drop = fmin(drop, way);
-    }
-  }
-  return held ? drop : HUGE_VAL;
-}
-
 /* Air holds smoke up. */
 static gboolean is_smoke(const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
@@ -166,6 +149,28 @@ static gboolean is_loose(const Start *start, guint body) {
   const SporeObject *object = start->bodies->pdata[body];
   return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) &&
          !spore_check_is_used(start->check, object, SPORE_HOLDING_LINKS);
+}
+
+/* Whether what falls on the body may come to lie there. */
+static gboolean may_carry(const Start *start, guint body) {
+  return !is_loose(start, body) && !is_smoke(start->bodies->pdata[body]);
+}
+
+/* How far the body falls until it meets another, m; HUGE_VAL: nothing that could carry it lies under it. */
+static double drop_of(const Start *start, guint body, SporeVec3 down) {
+  double drop = HUGE_VAL;
+  gboolean carried = FALSE;
+  for (guint i = 0; i < start->balls->len && !(carried && drop <= 0); i++) {
+    const Ball *falling = &g_array_index(start->balls, Ball, i);
+    if (falling->body != body) continue;
+    for (guint j = 0; j < start->balls->len; j++) {
+      const Ball *under = &g_array_index(start->balls, Ball, j);
+      double way = drop_to(start, falling, under, down);
+      carried = carried || (isfinite(way) && may_carry(start, under->body));
+      drop = fmin(drop, way);
+    }
+  }
+  return carried ? drop : HUGE_VAL;
 }
 
 static void find_drops(Start *start) {
@@ -183,9 +188,10 @@ static void check_loose(const Start *start) {
   for (guint i = 0; i < start->bodies->len; i++) {
     const SporeObject *body = start->bodies->pdata[i];
     if (isfinite(start->drops[i])) continue;
-    spore_check_say(
-        start->check, SPORE_NOTE, body, _("pin it, tie it with a spring, or put an unmovable body under it"),
-        _("\"%s\" is held by nothing, and nothing unmovable lies under it: it falls"), spore_object_name(body));
+    spore_check_say(start->check, SPORE_NOTE, body,
+                    _("pin it, tie it with a spring, or put an unmovable body under it"),
+                    _("\"%s\" is held by nothing, and nothing that could carry it lies under it: it falls"),
+                    spore_object_name(body));
   }
 }
 
@@ -207,8 +213,8 @@ static void check_impacts(const Start *start, const SporeSimulation *simulation)
     gboolean stops = comes <= stopping.stops;
     spore_check_say(
         start->check, stops ? SPORE_NOTE : SPORE_WARNING, body, stops ? _("make contacts stiffer for more") : stiffer,
-        _("\"%s\" comes at %.3g m/s, and one contact, as with \"%s\", stops it up to %.3g m/s: r sqrt(k/m) of "
-          "its sphere, more with damping"),
+        _("\"%s\" comes at up to %.3g m/s, and a single contact, as with \"%s\", stops it up to %.3g m/s: r sqrt(k/m) "
+          "of its sphere, more with damping or where several touch at once"),
         spore_object_name(body), comes, other, stopping.stops);
   }
 }

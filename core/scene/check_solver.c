@@ -67,7 +67,9 @@ static void check_solver(SporeCheck *check, const SporeObject *solver) {
                     _("error_tolerance is not used: no body is integrated by tr_bdf2"));
   if ((fields.nonlinear != SPORE_NONLINEAR_AUTOMATIC || fields.linear != SPORE_LINEAR_AUTOMATIC) && !uses.implicit)
     spore_check_say(check, SPORE_NOTE, solver, _("choose an implicit integrator, or leave nonlinear and linear open"),
-                    "%s", _("every body is integrated explicitly: how equations are solved matters to recovery alone"));
+                    "%s",
+                    _("every body is integrated explicitly: how equations are solved matters only in steps that "
+                      "contacts, links or recovery make implicit"));
 }
 
 /* Speed (m/s) at which a body without contact sinks under the static integrator: no force balances its weight, so each

@@ -122,7 +122,7 @@ static const SporeStageType stages[] = {
     {"link", has_springs, spore_world_link, links, /**/
      N_("links, jaws or a viewer's pull tie bodies"), N_("no link ties bodies, and nobody pulls at one"), 0.05, 0.08},
     {"islands", has_passive, spore_world_find_islands, islands, /**/
-     N_("bodies that touch are solved together"), N_("no body moves by physics"), 0.15, 0.05},
+     N_("bodies that touch or are tied are solved together"), N_("no body moves by physics"), 0.15, 0.05},
     {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
      N_("passive bodies move by physics"), N_("no body moves by physics"), 0, 0, integrate_work},
     {"verify", may_solve, spore_world_verify, degrees_of_freedom, /**/
@@ -135,7 +135,8 @@ static const SporeStageType stages[] = {
     {"accept", has_moving, spore_world_accept, bodies, /**/
      N_("bodies that move have a next state"), N_("no body moves"), 0.05, 0.02},
     {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
-     N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out"), 0.1, 0.02},
+     N_("particles come and go: by suction, by emitters, or as they dissolve"),
+     N_("nothing sucks particles away or lets them out"), 0.1, 0.02},
     {"split_nodes", may_split, spore_world_split_nodes, tetrahedra, /**/
      N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart"), 0.1, 0},
     {"advance", always, spore_world_advance, bodies, /**/
@@ -147,7 +148,8 @@ static const SporeStageType stages[] = {
     {"tear_holds", has_holds, spore_world_tear_holds, tools, /**/
      N_("what jaws hold may tear away"), N_("no jaws hold anything"), 0.05, 0.05},
     {"watch_energy", spore_world_may_gain_energy, spore_world_watch_energy, bodies, /**/
-     N_("some methods may make energy out of nothing"), N_("no method makes energy out of nothing"), 0.1, 0.01},
+     N_("some methods may make energy out of nothing"),
+     N_("no method makes energy out of nothing, or static moves a body and keeps none"), 0.1, 0.01},
     {"report", has_passive, spore_world_report_islands, islands, /**/
      N_("what went wrong is counted and said"), N_("no body moves by physics"), 0.08, 0.02},
     {"refine_splines", may_refine, spore_world_refine_splines, lines, /**/
@@ -159,14 +161,7 @@ _Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE
 
 /* Work besides stages that a world does not need. */
 
-/* Contacts and links may need an implicit step: see multirate.c. */
-static bool explicit_alone(const SporeWorld *world) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_PASSIVE && spore_integrator(body->method.integrator)->implicit) return false;
-  }
-  return has_passive(world) && !has_terms(world);
-}
+static bool none_solves(const SporeWorld *world) { return has_passive(world) && !may_solve(world); }
 
 static bool has_unmovable_spheres(const SporeWorld *world) {
   return may_touch(world) && world->contact.spheres.static_count > 0;
@@ -194,7 +189,7 @@ static const struct {
     {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start"),
      "map detect"},
     {N_("integration"), no_passive, N_("no body moves by physics"), "islands integrate report"},
-    {N_("the nonlinear solver"), explicit_alone,
+    {N_("the nonlinear solver"), none_solves,
      N_("every body is integrated explicitly, and nothing touches or ties them"), "verify"},
     {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out"), "particles"},
     {N_("tools"), no_tools, N_("no instrument does more than touch"), "tools tear_holds"},

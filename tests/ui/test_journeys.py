@@ -1300,6 +1300,37 @@ def plan_of_the_step():
 
 
 @check
+def what_the_method_takes_is_shown():
+    """the inspector says what a body's method takes from its slowest swing, as plan does, after every change, and of no other body."""
+    path = write_scene("swing", "<rigid_body/>")
+    path.write_text(path.read_text().replace("</bodies>", '</bodies><links><ball name="joint" body_a="ball" point="0.01 0.1 0"/></links>'))
+    said = r"^Its method takes ([\d.]+) % of the energy of its slowest swing in a second$"
+
+    def planned(scene):
+        report = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "plan", scene, "--json"], capture_output=True, text=True, check=True)
+        (body,) = json.loads(report.stdout)["bodies"]
+        return "%.3g" % (100 * body["damping_a_second"])
+
+    def figure(editor):
+        label = editor.look("label", said, showing=False)
+        return label and re.match(said, editor.name_of(label))[1]
+
+    with start(path) as editor:
+        editor.act("select", "s", "bodies/ball")
+        ui.wait(lambda: figure(editor) == planned(path), "the figure that plan says")
+        editor.act("set-property", "(sss)", ("solver", "time_step", "0.001"))
+        saved(editor, "swing")
+        ui.wait(lambda: figure(editor) == planned(folder("saved") / "swing" / "scene.spore"), "the figure of the shorter step")
+        editor.act("set-property", "(sss)", ("bodies/ball/mechanical", "integrator", "implicit_midpoint"))
+        editor.find("label", "^Its method takes less than 0.1 % of the energy", showing=False)
+        editor.act("select", "s", "links/joint")
+        editor.act("delete")
+        editor.act("select", "s", "bodies/ball")
+        editor.find("text", "^Substeps$", showing=False)
+        ui.wait(lambda: not editor.look("label", "^Its method takes", showing=False), "the figure to go")
+
+
+@check
 def without_graphics():
     """without OpenGL the viewport says why, and scenes are built and run all the same."""
     with start(__EGL_VENDOR_LIBRARY_FILENAMES="/nonexistent") as editor:

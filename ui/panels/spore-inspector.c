@@ -11,6 +11,7 @@
 #include "ui/document/mapping-report.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-sphere-measures.h"
+#include "ui/jobs/spore-swing-measures.h"
 #include "ui/panels/asset-facts.h"
 #include "ui/panels/region-list.h"
 #include "ui/panels/spore-generator-box.h"
@@ -25,8 +26,9 @@ struct _SporeInspector {
   GtkWidget *title, *subtitle, *sections;
   SporeEditorDocument *document;
   guint rebuild, refresh;
-  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *mapping_facts;
+  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *swing_facts, *mapping_facts;
   SporeSphereMeasures *measures;
+  SporeSwingMeasures *swings;
   SporeMappingReport mapping;
   char *mesh_hash, *mesh_text; /* of the last mesh: its content, and its figures in words */
 };
@@ -39,6 +41,8 @@ static guint signals[SIGNAL_COUNT];
 static SporeDocument *document_of(SporeInspector *self) { return spore_editor_document_get(self->document); }
 
 static SporeSectionList *sections_of(SporeInspector *self) { return SPORE_SECTION_LIST(self->sections); }
+
+static void queue_refresh(SporeInspector *self);
 
 /* Rows. */
 
@@ -133,6 +137,14 @@ static void show_mapping(SporeInspector *self, SporeObject *body) {
   gtk_label_set_text(GTK_LABEL(self->mapping_facts), text);
 }
 
+/* Measured only while it is seen. The figure of the scene before a change stays, grey, until the new one is there. */
+static void show_swing(SporeInspector *self, SporeObject *body) {
+  if (!gtk_widget_get_mapped(self->swing_facts)) return;
+  const char *text = spore_swing_measures_text(self->swings, document_of(self), body);
+  if (text) gtk_label_set_text(GTK_LABEL(self->swing_facts), text);
+  gtk_widget_set_sensitive(self->swing_facts, text != NULL);
+}
+
 static void show_facts(SporeInspector *self) {
   SporeObject *body = spore_editor_document_selected_body(self->document);
   if (!body || !self->model) return;
@@ -142,6 +154,7 @@ static void show_facts(SporeInspector *self) {
     if (self->generators[kind]) show_generated(self, body, kind);
   spore_model_choice_set_model(SPORE_MODEL_CHOICE(self->model), model);
   if (self->preset) spore_model_choice_set_model(SPORE_MODEL_CHOICE(self->preset), model);
+  if (self->swing_facts) show_swing(self, body);
   if (self->mapping_facts) show_mapping(self, body);
 }
 
@@ -241,6 +254,8 @@ static void add_mechanical(SporeInspector *self, SporeObject *body, const char *
   gtk_container_add(GTK_CONTAINER(box), self->model);
   add_generators(self, box, body, "mechanical");
   add_unit(self, box, body, "mechanical");
+  g_set_weak_pointer(&self->swing_facts, add_fact(box));
+  g_signal_connect_object(self->swing_facts, "map", G_CALLBACK(queue_refresh), self, G_CONNECT_SWAPPED);
   add_generator_regions(self, box, asset,
                         _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
 }
@@ -346,6 +361,15 @@ static void document_changed(SporeInspector *self, int kind, guint id, guint pro
   else queue_refresh(self);
 }
 
+static void measured(SporeInspector *self) {
+  if (self->document) queue_refresh(self);
+}
+
+static void release_swings(SporeInspector *self) {
+  if (self->swings) g_signal_handlers_disconnect_by_data(self->swings, self);
+  g_clear_object(&self->swings);
+}
+
 static void release_document(SporeInspector *self) {
   g_clear_handle_id(&self->rebuild, g_source_remove);
   g_clear_handle_id(&self->refresh, g_source_remove);
@@ -356,6 +380,9 @@ static void release_document(SporeInspector *self) {
 void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *document) {
   release_document(self);
   self->document = g_object_ref(document);
+  release_swings(self); /* figures are of one document */
+  self->swings = spore_swing_measures_new();
+  g_signal_connect_object(self->swings, "measured", G_CALLBACK(measured), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(queue_rebuild), self, G_CONNECT_SWAPPED);
   spore_section_list_begin(sections_of(self)); /* rows of the document before are not kept */
@@ -368,6 +395,7 @@ static void spore_inspector_dispose(GObject *object) {
   release_document(self);
   if (self->measures) g_signal_handlers_disconnect_by_data(self->measures, self);
   g_clear_object(&self->measures);
+  release_swings(self);
   G_OBJECT_CLASS(spore_inspector_parent_class)->dispose(object);
 }
 
@@ -390,10 +418,6 @@ static void spore_inspector_class_init(SporeInspectorClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeInspector, title);
   gtk_widget_class_bind_template_child(widget, SporeInspector, subtitle);
   gtk_widget_class_bind_template_child(widget, SporeInspector, sections);
-}
-
-static void measured(SporeInspector *self) {
-  if (self->document) queue_refresh(self);
 }
 
 static void spore_inspector_init(SporeInspector *self) {
