@@ -204,21 +204,21 @@ gboolean spore_output_open(SporeOutput *output, const SporeOutputOptions *option
       spore_measurement_create(run->simulation->world, options->quantities ? chosen : NULL,
                                (const SporeWatchRequest *)(gconstpointer)watches->data, watches->len, &fault);
   if (!output->measurement) return spore_error_propagate(&fault, error);
-  output->series.measurement = output->measurement;
-  output->lost = !spore_series_add(&output->series);
+  output->numbers.measurement = output->measurement;
+  output->lost = !spore_numbers_add(&output->numbers);
   return TRUE;
 }
 
 gboolean spore_output_step(SporeOutput *output, guint64 step) {
   if (!output->measurement || step % output->stride != 0) return TRUE;
-  output->lost |= !spore_series_add(&output->series);
+  output->lost |= !spore_numbers_add(&output->numbers);
   return !output->lost;
 }
 
 static char *format(const SporeOutput *output, const char *scene, gsize *size) {
-  if (is_csv(output->file)) return spore_series_csv(&output->series, size);
+  if (is_csv(output->file)) return spore_numbers_csv(&output->numbers, size);
   g_autofree char *name = g_filename_display_name(scene);
-  return spore_series_json(&output->series, name, output->dt_s, size);
+  return spore_numbers_json(&output->numbers, name, output->dt_s, size);
 }
 
 int spore_output_save(const SporeCli *cli, const SporeOutput *output, const char *scene) {
@@ -236,12 +236,12 @@ int spore_output_save(const SporeCli *cli, const SporeOutput *output, const char
   spore_free(text);
   if (!saved) return spore_cli_fail(error);
   spore_measurement_columns(output->measurement, &columns);
-  spore_cli_say(cli, _("%s: %zu rows of %zu columns\n"), output->file, output->series.row_count, columns);
+  spore_cli_say(cli, _("%s: %zu rows of %zu columns\n"), output->file, output->numbers.row_count, columns);
   return SPORE_EXIT_DONE;
 }
 
 void spore_output_clear(SporeOutput *output) {
-  spore_series_clear(&output->series);
+  spore_numbers_clear(&output->numbers);
   spore_measurement_free(output->measurement);
   *output = (SporeOutput){0};
 }
