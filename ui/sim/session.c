@@ -521,12 +521,20 @@ double *spore_session_numbers(SporeSession *session, gsize first, gsize count, g
   return copy;
 }
 
+char *spore_session_csv(SporeSession *session, size_t *size) {
+  gsize columns, rows;
+  spore_session_columns(session, &columns);
+  g_autofree double *values = spore_session_numbers(session, 0, columns, &rows);
+  const SporeNumbers numbers = {.measurement = session->measurement, .row_count = rows, .values = values};
+  return spore_numbers_csv(&numbers, size);
+}
+
 gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *points, gsize count, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   g_mutex_lock(&session->mutex);
   gboolean playing = session->playing;
   session->playing = FALSE;
-  session->reset = TRUE;
+  session->reset = spore_session_snapshot(session)->step > 0;
   wait_standing(session);
   SporeMeasurement *measurement = new_measurement(session, points, count, &fault);
   gboolean taken = measurement ? take_measurement(session, measurement, error) : spore_error_propagate(&fault, error);

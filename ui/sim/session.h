@@ -49,8 +49,10 @@ SporeSessionFigures spore_session_figures(SporeSession *session);
 const SporeColumn *spore_session_columns(const SporeSession *session, gsize *count);
 /* Copies `count` columns from `first` on of all rows: an array of row_count x count doubles, to be freed by g_free. */
 double *spore_session_numbers(SporeSession *session, gsize first, gsize count, gsize *row_count);
-/* Watches these points and no others, and goes back to time 0. FALSE: a body cannot carry its point; the points before
- * are watched on. */
+/* All of them as CSV, to be freed by spore_free. NULL: no memory. */
+char *spore_session_csv(SporeSession *session, size_t *size);
+/* Watches these points and no others, from time 0 on, where the session goes back to. FALSE: a body cannot carry its
+ * point; the points before are watched on. */
 gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *points, gsize count, GError **error);
 
 /* A copy of all device states so far. Free with spore_track_clear and g_free. */
