@@ -1266,7 +1266,7 @@ def sleep_lateness_and_trouble_are_shown():
         editor.act("speed", "s", "100")  # which nothing keeps up with that solves equations in vain
         editor.act("play")
         ui.wait(lambda: editor.hud(r"Late steps (\d+\.\d+) %"), "late steps")
-        ui.wait(lambda: editor.hud(r"⚠ ball: (\d+) steps not solved: rounding is more than its equations may miss.*; take softer laws"), "the warning in the view")
+        ui.wait(lambda: editor.hud(r"⚠ ball: (\d+) steps not solved: it stands still, .*; reset, or change its parameters"), "the warning in the view")
         editor.find("table cell", "^ball: rounding is more than its equations may miss")
         editor.find("table cell", "take softer laws and links")
         editor.find("table cell", r"^step \d+$")
