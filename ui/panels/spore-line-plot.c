@@ -5,9 +5,10 @@
 
 #define LEFT 70
 #define RIGHT 14
-#define TOP 24
 #define BOTTOM 20
 #define LEGEND_GAP 14
+#define LEGEND_LINE 16
+#define SAMPLE 18 /* of a line, in the legend */
 
 struct _SporeLinePlot {
   GtkDrawingArea parent;
@@ -29,12 +30,12 @@ static void widen(double *low, double *high) {
   *high += by;
 }
 
-/* FALSE: no value can be shown. */
-static gboolean fit(SporeLinePlot *self, Frame *frame) {
+/* top: where the lines begin, below the legend. FALSE: no value can be shown. */
+static gboolean fit(SporeLinePlot *self, Frame *frame, double top) {
   *frame = (Frame){.left = LEFT,
-                   .top = TOP,
+                   .top = top,
                    .width = gtk_widget_get_allocated_width(GTK_WIDGET(self)) - LEFT - RIGHT,
-                   .height = gtk_widget_get_allocated_height(GTK_WIDGET(self)) - TOP - BOTTOM,
+                   .height = gtk_widget_get_allocated_height(GTK_WIDGET(self)) - top - BOTTOM,
                    .low_x = HUGE_VAL,
                    .high_x = -HUGE_VAL,
                    .low_y = HUGE_VAL,
@@ -123,17 +124,40 @@ static void draw_lines(SporeLinePlot *self, cairo_t *cr, const Frame *f) {
   }
 }
 
-/* In one row above the lines, as far as there is room. */
-static void draw_legend(SporeLinePlot *self, cairo_t *cr, const Frame *f) {
+static double text_width(GtkWidget *widget, const char *text) {
+  int width;
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
+  pango_layout_get_pixel_size(layout, &width, NULL);
+  return width;
+}
+
+/* What is plotted, and the name of each line, in as many rows as it takes. Draws where cr is not NULL. Returns the
+ * height, pixels. */
+static double lay_legend(SporeLinePlot *self, cairo_t *cr) {
   GtkWidget *widget = GTK_WIDGET(self);
-  double x = f->left + draw_text(widget, cr, f->left, 3, 0, self->panel->y_label) + LEGEND_GAP;
-  for (gsize l = 0; l < self->panel->line_count && self->panel->line_count > 1 && x < f->left + f->width - 60; l++) {
-    set_style(cr, l);
-    cairo_move_to(cr, x, 12);
-    cairo_line_to(cr, x + 18, 12);
-    cairo_stroke(cr);
-    x += 22 + draw_text(widget, cr, x + 22, 3, 0, self->panel->lines[l].label) + LEGEND_GAP;
+  const SporePlotPanel *panel = self->panel;
+  double right = gtk_widget_get_allocated_width(widget) - RIGHT, x = LEFT, y = 3;
+  if (cr) draw_text(widget, cr, x, y, 0, panel->y_label);
+  if (cr) draw_text(widget, cr, right, y, 1, panel->x_label);
+  x += text_width(widget, panel->y_label) + LEGEND_GAP;
+  double end = right - text_width(widget, panel->x_label) - LEGEND_GAP;
+  for (gsize l = 0; l < panel->line_count && panel->line_count > 1; l++) {
+    double width = SAMPLE + 4 + text_width(widget, panel->lines[l].label);
+    if (x + width > end && x > LEFT) {
+      x = LEFT;
+      y += LEGEND_LINE;
+      end = right;
+    }
+    if (cr) {
+      set_style(cr, l);
+      cairo_move_to(cr, x, y + 9);
+      cairo_line_to(cr, x + SAMPLE, y + 9);
+      cairo_stroke(cr);
+      draw_text(widget, cr, x + SAMPLE + 4, y, 0, panel->lines[l].label);
+    }
+    x += width + LEGEND_GAP;
   }
+  return y + LEGEND_LINE;
 }
 
 static gboolean draw(GtkWidget *widget, cairo_t *cr) {
@@ -142,8 +166,8 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   GdkRGBA text;
   Frame f;
   gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
-  if (!self->panel || !fit(self, &f)) {
-    draw_text(widget, cr, RIGHT, TOP, 0, self->invitation ? self->invitation : "");
+  if (!self->panel || !fit(self, &f, lay_legend(self, NULL) + 4)) {
+    draw_text(widget, cr, RIGHT, LEGEND_LINE, 0, self->invitation ? self->invitation : "");
     return FALSE;
   }
   draw_axes(self, cr, &f, &text);
@@ -152,8 +176,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   cairo_clip(cr);
   draw_lines(self, cr, &f);
   cairo_restore(cr);
-  draw_legend(self, cr, &f);
-  draw_text(widget, cr, f.left + f.width, 3, 1, self->panel->x_label);
+  lay_legend(self, cr);
   return FALSE;
 }
 

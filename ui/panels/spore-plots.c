@@ -2,6 +2,7 @@
 #include "ui/panels/spore-plots.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -12,7 +13,7 @@
 #include "ui/panels/spore-line-plot.h"
 
 #define REFRESH_MS 100
-#define MOST_LINES 24 /* more cannot be told apart */
+#define MOST_LINES SPORE_PLOT_COLOURS /* more cannot be told apart */
 
 /* Columns of a quantity that share a unit: one plot. */
 typedef struct {
@@ -144,26 +145,75 @@ static void clear_lines(SporePlots *self) {
   self->panel.line_count = 0;
 }
 
-static void make_panel(SporePlots *self, SporeSession *session, const Group *group) {
-  gsize rows, count, least;
-  const SporeColumn *columns = spore_session_columns(session, &count);
-  clear_lines(self);
-  self->time_s = spore_session_numbers(session, 0, 1, &least);
-  gsize lines = MIN(group->columns->len, MOST_LINES);
-  gboolean one = is_of_one(group, columns);
-  for (gsize l = 0; l < lines; l++) {
-    gsize column = g_array_index(group->columns, gsize, l);
-    self->values[l] = spore_session_numbers(session, column, 1, &rows);
-    least = MIN(least, rows); /* the run may have gone on, or begun anew, in between */
-    g_ptr_array_add(self->labels, g_strdup(one ? part_of(&columns[column]) : rest_of(&columns[column])));
+/* Mean size of the values that are known. */
+static double size_of(const double *values, gsize count) {
+  double sum = 0, known = 0;
+  for (gsize i = 0; i < count; i++) {
+    if (!isfinite(values[i])) continue;
+    sum += fabs(values[i]);
+    known++;
   }
-  for (gsize l = 0; l < lines; l++)
+  return known > 0 ? sum / known : -1;
+}
+
+/* Takes the column's values in place of the smallest of those so far, where there is no room and these are larger. */
+static void take_values(SporePlots *self, double *values, gsize rows, gsize column, gsize *columns, double *sizes) {
+  gsize smallest = 0, count = self->panel.line_count;
+  double size = size_of(values, rows);
+  for (gsize l = 1; l < count; l++)
+    if (sizes[l] < sizes[smallest]) smallest = l;
+  if (count == MOST_LINES && size <= sizes[smallest]) {
+    g_free(values);
+    return;
+  }
+  if (count == MOST_LINES) { /* those behind it move up, so that the order stays */
+    g_free(self->values[smallest]);
+    for (gsize l = smallest; l + 1 < count; l++) {
+      self->values[l] = self->values[l + 1];
+      columns[l] = columns[l + 1];
+      sizes[l] = sizes[l + 1];
+    }
+    count--;
+  }
+  self->values[count] = values;
+  columns[count] = column;
+  sizes[count] = size;
+  self->panel.line_count = count + 1;
+}
+
+/* Copies what is drawn: of many columns the largest. */
+static gsize copy_values(SporePlots *self, SporeSession *session, const Group *group, gsize *columns) {
+  gsize rows, least;
+  double sizes[MOST_LINES];
+  self->time_s = spore_session_numbers(session, 0, 1, &least);
+  for (guint i = 0; i < group->columns->len; i++) {
+    gsize column = g_array_index(group->columns, gsize, i);
+    double *values = spore_session_numbers(session, column, 1, &rows);
+    least = MIN(least, rows); /* the run may have gone on, or begun anew, in between */
+    take_values(self, values, rows, column, columns, sizes);
+  }
+  return least;
+}
+
+static void make_panel(SporePlots *self, SporeSession *session, const Group *group) {
+  gsize count, shown[MOST_LINES];
+  const SporeColumn *columns = spore_session_columns(session, &count);
+  gboolean one = is_of_one(group, columns);
+  clear_lines(self);
+  gsize rows = copy_values(self, session, group, shown);
+  for (gsize l = 0; l < self->panel.line_count; l++) {
+    const SporeColumn *column = &columns[shown[l]];
+    g_ptr_array_add(self->labels, g_strdup(one ? part_of(column) : rest_of(column)));
     self->lines[l] = (SporePlotLine){
-        .label = g_ptr_array_index(self->labels, l), .count = least, .x = self->time_s, .y = self->values[l]};
+        .label = g_ptr_array_index(self->labels, l), .count = rows, .x = self->time_s, .y = self->values[l]};
+  }
   g_free(self->y_label);
-  self->y_label = g_strdup(group->label);
-  self->panel =
-      (SporePlotPanel){.x_label = _("time [s]"), .y_label = self->y_label, .lines = self->lines, .line_count = lines};
+  self->y_label = group->columns->len > MOST_LINES
+                      ? g_strdup_printf(_("%s, the %d largest of %u"), group->label, MOST_LINES, group->columns->len)
+                      : g_strdup(group->label);
+  self->panel.x_label = _("time [s]");
+  self->panel.y_label = self->y_label;
+  self->panel.lines = self->lines;
 }
 
 static void refresh(SporePlots *self) {

@@ -15,7 +15,7 @@
 #define FACTOR_WINDOW_US (G_USEC_PER_SEC)
 
 /* Numbers over time: how often a simulated second, at first, and how many rows before every second one is dropped. */
-#define ROWS_A_SECOND 50
+#define ROWS_A_SECOND 30
 #define MOST_ROWS 4096
 /* Steps between two looks at what was not solved. */
 #define STEPS_A_LOOK 16

@@ -44,7 +44,7 @@ typedef struct SporeSessionFigures {
 } SporeSessionFigures;
 SporeSessionFigures spore_session_figures(SporeSession *session);
 
-/* Numbers over time: all of spore_quantities, measured some 50 times a simulated second since time 0, and less often
+/* Numbers over time: all of spore_quantities, measured some 30 times a simulated second since time 0, and less often
  * once there are thousands of rows. The columns stay until points are watched. */
 const SporeColumn *spore_session_columns(const SporeSession *session, gsize *count);
 /* Copies `count` columns from `first` on of all rows: an array of row_count x count doubles, to be freed by g_free. */
