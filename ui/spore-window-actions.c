@@ -151,6 +151,24 @@ static void act_reset(GSimpleAction *action, GVariant *parameter, gpointer data)
   spore_player_reset(((SporeWindow *)data)->player);
 }
 
+static void act_plot(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  if (spore_plots_show(SPORE_PLOTS(self->plots), g_variant_get_string(parameter, NULL)))
+    spore_window_show_tab(self, self->plots);
+}
+
+static void act_watch(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (spore_plots_watch(SPORE_PLOTS(self->plots), g_variant_get_string(parameter, NULL), &error))
+    spore_window_show_tab(self, self->plots);
+  else spore_window_failed(self, error);
+}
+
+static void act_forget_points(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_plots_forget_points(SPORE_PLOTS(((SporeWindow *)data)->plots));
+}
+
 static void change_speed(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
   const char *text = g_variant_get_string(state, NULL);
@@ -242,6 +260,9 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"step", act_step},
       {"reset", act_reset},
       {"speed", NULL, "s", "'1'", change_speed},
+      {"plot", act_plot, "s"},
+      {"watch", act_watch, "s"},
+      {"forget-points", act_forget_points},
       {"tool", NULL, "s", "'select'", change_tool},
       {"show-surfaces", NULL, NULL, "true", change_overlay},
       {"show-spheres", NULL, NULL, "false", change_overlay},

@@ -77,6 +77,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
   spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
   spore_plan_set_document(SPORE_PLAN(self->plan), self->document);
+  spore_plots_set_document(SPORE_PLOTS(self->plots), self->document, self->player);
   gtk_widget_hide(self->message_bar);
   player_changed(self);
 }
@@ -255,6 +256,38 @@ static void act_save_recording_dialog(GSimpleAction *action, GVariant *parameter
   if (file) save_recording(data, file);
 }
 
+/* Numbers and plots. */
+
+static void save_numbers(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  if (spore_plots_save(SPORE_PLOTS(self->plots), file, &error)) spore_window_log(self, _("Saved %s"), file);
+  else spore_window_failed(self, error);
+}
+
+static void act_save_numbers(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(g_variant_dup_string(parameter, NULL), ".csv");
+  save_numbers(data, file);
+}
+
+static void act_save_plot(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(g_variant_dup_string(parameter, NULL), ".svg");
+  save_numbers(data, file);
+}
+
+static void act_save_numbers_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save numbers"), _("_Save"),
+                                                     "*.csv", _("Tables (CSV)"), "run.csv"),
+                                         ".csv");
+  if (file) save_numbers(data, file);
+}
+
+static void act_save_plot_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save plot"), _("_Save"),
+                                                     "*.svg", _("Pictures (SVG)"), "plot.svg"),
+                                         ".svg");
+  if (file) save_numbers(data, file);
+}
+
 static void act_close(GSimpleAction *action, GVariant *parameter, gpointer data) { gtk_window_close(data); }
 
 void spore_window_add_file_actions(SporeWindow *self) {
@@ -268,6 +301,10 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"save-as-dialog", act_save_as_dialog},
       {"save-recording", act_save_recording, "s"},
       {"save-recording-dialog", act_save_recording_dialog},
+      {"save-numbers", act_save_numbers, "s"},
+      {"save-numbers-dialog", act_save_numbers_dialog},
+      {"save-plot", act_save_plot, "s"},
+      {"save-plot-dialog", act_save_plot_dialog},
       {"close", act_close},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -10,6 +10,7 @@
 #include "ui/panels/spore-inspector.h"
 #include "ui/panels/spore-outliner.h"
 #include "ui/panels/spore-plan.h"
+#include "ui/panels/spore-plots.h"
 #include "ui/panels/spore-problems.h"
 #include "ui/sim/spore-player.h"
 #include "ui/spore-window.h"
@@ -18,8 +19,8 @@
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
-  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *generator_panel, *bottom, *tabs, *log, *hint, *job_box,
-      *job_label, *job_bar, *renderer;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *plots, *generator_panel, *bottom, *tabs, *log, *hint,
+      *job_box, *job_label, *job_bar, *renderer;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */

@@ -194,4 +194,9 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "reset", session);
   set_enabled(self, "save-recording", session);
   set_enabled(self, "save-recording-dialog", session);
+  set_enabled(self, "save-numbers", session);
+  set_enabled(self, "save-numbers-dialog", session);
+  set_enabled(self, "save-plot", session);
+  set_enabled(self, "save-plot-dialog", session);
+  set_enabled(self, "watch", bodies);
 }

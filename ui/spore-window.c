@@ -111,6 +111,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, inspector);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plan);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
   gtk_widget_class_bind_template_child(widget, SporeWindow, tabs);
@@ -131,6 +132,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_INSPECTOR);
   g_type_ensure(SPORE_TYPE_PLAN);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
+  g_type_ensure(SPORE_TYPE_PLOTS);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-window.ui");
   bind_children(widget);

@@ -5,7 +5,8 @@
  *
  *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
  *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
- *               save-recording-dialog, close
+ *               save-recording-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
+ *               save-plot-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
  *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
@@ -15,7 +16,8 @@
  *               apply-generated, cancel-job
  *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
  *               measure-mapping: of the selected body
- *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
+ *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
+ *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,
  *               show-problems (state), filter

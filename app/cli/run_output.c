@@ -7,9 +7,8 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/base/number.h"
 #include "core/io/scene_xml.h"
-#include "core/scene/body_shape.h"
+#include "core/scene/watch_place.h"
 
 #define ROUNDING 1e-9 /* of --every as a number of steps */
 
@@ -103,66 +102,13 @@ gboolean spore_output_check(const SporeOutputOptions *options, const char *scene
 
 /* Watched points. */
 
-/* A coordinate as --watch takes it. */
-static void append_place(GString *text, SporeVec3 at) {
-  const double coordinates[] = {at.x, at.y, at.z};
-  char digits[G_ASCII_DTOSTR_BUF_SIZE];
-  for (int k = 0; k < 3; k++)
-    g_string_append_printf(text, k > 0 ? ",%s" : "%s", g_ascii_formatd(digits, sizeof digits, "%.6g", coordinates[k]));
-}
-
-static gboolean read_place(const char *text, SporeVec3 *at) {
-  double numbers[3];
-  for (int k = 0; k < 3; k++) {
-    size_t length = spore_number_read(text, strlen(text), &numbers[k]);
-    if (length == 0 || !isfinite(numbers[k]) || text[length] != (k < 2 ? ',' : '\0')) return FALSE;
-    text += length + 1;
-  }
-  *at = (SporeVec3){numbers[0], numbers[1], numbers[2]};
-  return TRUE;
-}
-
-static gboolean check_place(const SporeRun *run, const SporeWatchRequest *request, const char *body, GError **error) {
-  SporeBodyPlace place;
-  if (!spore_body_find_place(run->simulation, run->document, request->body, request->at, &place))
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--watch",
-                             _("%s: the body has no mesh, curve or spheres, so that it has no point; watch another"),
-                             request->name);
-  if (place.outside <= place.allowed && place.carried) return TRUE;
-  g_autoptr(GString) nearest = g_string_new(body);
-  g_string_append_c(nearest, '@');
-  append_place(nearest, place.nearest);
-  if (place.outside <= place.allowed)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--watch",
-                             _("%s is a point that the body cannot carry; expected one on its surface, or on the line "
-                               "of a straight thread; the nearest is %s"),
-                             request->name, nearest->str);
-  return spore_error_raise(error, SPORE_ERROR_INPUT, "--watch",
-                           _("%s lies %.3g m outside the body; expected at most %.3g m, its mean edge; the nearest "
-                             "point of the body is %s"),
-                           request->name, place.outside, place.allowed, nearest->str);
-}
-
-static gboolean parse_watch(const SporeRun *run, const char *text, SporeWatchRequest *request, GError **error) {
-  const char *at = strrchr(text, '@');
-  *request = (SporeWatchRequest){.name = text};
-  if (!at || at == text || !read_place(at + 1, &request->at))
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--watch",
-                             _("'%s' is no point of a body; expected BODY@X,Y,Z in metres, such as liver@0.01,0,0.02"),
-                             text);
-  g_autofree char *name = g_strndup(text, (gsize)(at - text));
-  SporeObject *body = spore_cli_find_body(run->document, "--watch", name, error);
-  if (!body) return FALSE;
-  request->body = spore_simulation_body_of(run->simulation, body);
-  return check_place(run, request, name, error);
-}
-
 /* NULL with a GError; free with g_array_unref. */
 static GArray *parse_watches(const SporeRun *run, char **watch, GError **error) {
   g_autoptr(GArray) requests = g_array_new(FALSE, FALSE, sizeof(SporeWatchRequest));
   for (; watch && *watch; watch++) {
-    SporeWatchRequest request;
-    if (!parse_watch(run, *watch, &request, error)) return NULL;
+    SporeWatchRequest request = {.name = *watch};
+    if (!spore_watch_place_parse(run->simulation, run->document, *watch, &request.body, &request.at, error))
+      return NULL;
     g_array_append_val(requests, request);
   }
   return g_steal_pointer(&requests);
@@ -204,21 +150,21 @@ gboolean spore_output_open(SporeOutput *output, const SporeOutputOptions *option
       spore_measurement_create(run->simulation->world, options->quantities ? chosen : NULL,
                                (const SporeWatchRequest *)(gconstpointer)watches->data, watches->len, &fault);
   if (!output->measurement) return spore_error_propagate(&fault, error);
-  output->series.measurement = output->measurement;
-  output->lost = !spore_series_add(&output->series);
+  output->numbers.measurement = output->measurement;
+  output->lost = !spore_numbers_add(&output->numbers);
   return TRUE;
 }
 
 gboolean spore_output_step(SporeOutput *output, guint64 step) {
   if (!output->measurement || step % output->stride != 0) return TRUE;
-  output->lost |= !spore_series_add(&output->series);
+  output->lost |= !spore_numbers_add(&output->numbers);
   return !output->lost;
 }
 
 static char *format(const SporeOutput *output, const char *scene, gsize *size) {
-  if (is_csv(output->file)) return spore_series_csv(&output->series, size);
+  if (is_csv(output->file)) return spore_numbers_csv(&output->numbers, size);
   g_autofree char *name = g_filename_display_name(scene);
-  return spore_series_json(&output->series, name, output->dt_s, size);
+  return spore_numbers_json(&output->numbers, name, output->dt_s, size);
 }
 
 int spore_output_save(const SporeCli *cli, const SporeOutput *output, const char *scene) {
@@ -236,12 +182,12 @@ int spore_output_save(const SporeCli *cli, const SporeOutput *output, const char
   spore_free(text);
   if (!saved) return spore_cli_fail(error);
   spore_measurement_columns(output->measurement, &columns);
-  spore_cli_say(cli, _("%s: %zu rows of %zu columns\n"), output->file, output->series.row_count, columns);
+  spore_cli_say(cli, _("%s: %zu rows of %zu columns\n"), output->file, output->numbers.row_count, columns);
   return SPORE_EXIT_DONE;
 }
 
 void spore_output_clear(SporeOutput *output) {
-  spore_series_clear(&output->series);
+  spore_numbers_clear(&output->numbers);
   spore_measurement_free(output->measurement);
   *output = (SporeOutput){0};
 }

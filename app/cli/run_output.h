@@ -3,7 +3,7 @@
 #define SPORE_APP_CLI_RUN_OUTPUT_H
 
 #include "app/cli/scene.h"
-#include "core/measure/series.h"
+#include "core/measure/numbers.h"
 
 typedef struct SporeOutputOptions {
   char *file, *quantities, *every; /* NULL: not given */
@@ -49,7 +49,7 @@ gboolean spore_output_check(const SporeOutputOptions *options, const char *scene
 typedef struct SporeOutput {
   const char *file;              /* borrowed */
   SporeMeasurement *measurement; /* NULL: nothing is measured */
-  SporeSeries series;
+  SporeNumbers numbers;
   guint64 stride; /* steps a row */
   double dt_s;
   gboolean lost; /* a row, for want of memory */

@@ -13,8 +13,8 @@
 
 #include "core/sim/world.h"
 
-#define SPORE_LOCAL_ERROR_PERIOD 64 /* steps from one estimate to the next, so that estimating costs next to nothing   \
-                                     */
+/* Steps from one estimate to the next: estimating costs next to nothing. */
+#define SPORE_LOCAL_ERROR_PERIOD 64
 
 typedef struct SporeLocalErrorBody SporeLocalErrorBody;
 

@@ -17,11 +17,11 @@
 #define TOP 78.
 #define BOTTOM 108.
 #define LINE_OF_TEXT 18.
-#define TICKS_MOST 24
 
-/* Colours of Okabe and Ito (2008), which people with colour blindness can distinguish. */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-#define COLOURS (sizeof colours / sizeof colours[0])
+#define POINTS_MOST 200 /* of a line on which they are seen */
+
+const char *const spore_plot_colours[SPORE_PLOT_COLOURS] = {"#0072b2", "#d55e00", "#009e73",
+                                                            "#cc79a7", "#e69f00", "#56b4e9"};
 
 typedef SporeTextBuffer Text;
 
@@ -73,7 +73,7 @@ static void add_text(Text *text, double x, double y, const char *rest, const cha
 typedef struct Axis {
   double low, high, from, to;
   bool logarithmic;
-  double tick[TICKS_MOST];
+  double tick[SPORE_PLOT_TICKS];
   size_t ticks;
 } Axis;
 
@@ -87,7 +87,7 @@ static double place(const Axis *axis, double value) {
 
 static void add_tick(Axis *axis, double value) {
   double slack = 1e-9 * (axis->high - axis->low);
-  if (axis->ticks < TICKS_MOST && value >= axis->low - slack && value <= axis->high + slack)
+  if (axis->ticks < SPORE_PLOT_TICKS && value >= axis->low - slack && value <= axis->high + slack)
     axis->tick[axis->ticks++] = value;
 }
 
@@ -95,7 +95,7 @@ static void add_tick(Axis *axis, double value) {
 static void tick_decades(Axis *axis) {
   static const double steps[] = {1, 2, 5};
   int first = (int)floor(log10(axis->low)), last = (int)ceil(log10(axis->high)), each = last - first > 3 ? 1 : 3;
-  int stride = 1 + (last - first) / TICKS_MOST;
+  int stride = 1 + (last - first) / SPORE_PLOT_TICKS;
   for (int decade = first; decade <= last; decade += stride)
     for (int k = 0; k < each; k++) add_tick(axis, steps[k] * pow(10, decade));
 }
@@ -105,7 +105,16 @@ static void tick_evenly(Axis *axis) {
   if (rough > 5 * unit) step = 10 * unit;
   else if (rough > 2 * unit) step = 5 * unit;
   else if (rough > unit) step = 2 * unit;
-  for (double k = ceil(axis->low / step); k * step <= axis->high * (1 + 1e-9); k++) add_tick(axis, k * step);
+  double first = ceil(axis->low / step);
+  for (double k = 0; k < SPORE_PLOT_TICKS && (first + k) * step <= axis->high + 1e-9 * fabs(axis->high); k++)
+    add_tick(axis, (first + k) * step);
+}
+
+size_t spore_plot_ticks(double low, double high, double tick[SPORE_PLOT_TICKS]) {
+  Axis axis = {.low = low, .high = high};
+  tick_evenly(&axis);
+  memcpy(tick, axis.tick, axis.ticks * sizeof *tick);
+  return axis.ticks;
 }
 
 /* Fits the values with a little room; a linear axis of values that are not negative begins at 0. */
@@ -166,7 +175,7 @@ static void draw_axes(Text *text, const Axis *x, const Axis *y, const SporePlotP
 }
 
 static void draw_line(Text *text, const Axis *x, const Axis *y, const SporePlotLine *line, size_t number) {
-  const char *colour = colours[number % COLOURS];
+  const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS];
   bool first = true;
   if (!line->scattered) {
     add(text, "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"");
@@ -182,7 +191,7 @@ static void draw_line(Text *text, const Axis *x, const Axis *y, const SporePlotL
     }
     add(text, "\"/>\n");
   }
-  for (size_t i = 0; i < line->count; i++) {
+  for (size_t i = 0; (line->scattered || line->count <= POINTS_MOST) && i < line->count; i++) {
     if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
     add(text, "<circle r=\"3.5\" fill=\"");
     add(text, colour);
@@ -226,7 +235,7 @@ static void draw_legend(Text *text, const SporePlotPanel *panel) {
   double x = LEFT;
   for (size_t l = 0; l < panel->line_count; l++) {
     add(text, "<circle r=\"4.5\" fill=\"");
-    add(text, colours[l % COLOURS]);
+    add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
     add(text, "\"");
     add_attribute(text, "cx", x + 5);
     add_attribute(text, "cy", TOP - 27);

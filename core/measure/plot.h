@@ -14,7 +14,7 @@ typedef struct SporePlotLine {
       *label; /* translated; lines of the same index in the panels have the same colour, and there is one legend */
   size_t count;
   const double *x, *y;
-  bool scattered; /* points alone, not joined */
+  bool scattered; /* points alone, not joined; lines of many points are drawn without them */
 } SporePlotLine;
 
 typedef struct SporePlotPanel {
@@ -25,6 +25,15 @@ typedef struct SporePlotPanel {
   const char *mark_label; /* of a vertical line at mark_x; NULL: none */
   double mark_x;
 } SporePlotPanel;
+
+/* Colours of lines, "#rrggbb", of Okabe and Ito (2008), which people with colour blindness can distinguish. Line i has
+ * colour i % SPORE_PLOT_COLOURS. */
+#define SPORE_PLOT_COLOURS 6
+extern const char *const spore_plot_colours[SPORE_PLOT_COLOURS];
+/* Values that a linear axis from low to high is marked at, low < high: multiples of 1, 2 or 5 of a power of 10. Returns
+ * their number. */
+#define SPORE_PLOT_TICKS 24
+size_t spore_plot_ticks(double low, double high, double tick[SPORE_PLOT_TICKS]);
 
 /* An SVG document in UTF-8, to be freed with spore_free; numbers are in the C locale. note: lines of text below the
  * panels, may be NULL. The legend is that of the first panel. NULL: no memory, or no panel has a point to show. */

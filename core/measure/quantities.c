@@ -18,6 +18,8 @@ struct SporeMeasurement {
   bool chosen[SPORE_QUANTITY_COUNT];
   size_t column_count;
   SporeColumn *columns;
+  bool summed; /* momentum and angular are those of the state that is being measured */
+  SporeVec3 momentum, angular;
 };
 
 /* Sums over bodies. */
@@ -33,29 +35,30 @@ static void measure_energy(SporeMeasurement *measurement, size_t i, double *valu
   memcpy(values, parts, sizeof parts);
 }
 
-/* Momentum and angular momentum, about the origin of the scene, of all that physics moves. */
-static void sum_momentum(const SporeWorld *world, SporeVec3 *momentum, SporeVec3 *angular) {
+/* Momentum and angular momentum, about the origin of the scene, of all that physics moves; once a row. */
+static void sum_momentum(SporeMeasurement *measurement) {
   const SporeVec3 origin = {0, 0, 0};
-  *momentum = *angular = origin;
+  const SporeWorld *world = measurement->world;
+  if (measurement->summed) return;
+  measurement->summed = true;
+  measurement->momentum = measurement->angular = origin;
   for (uint32_t body = 0; body < spore_world_body_count(world); body++) {
     const SporeModel *model = spore_world_body_model(world, body);
     if (!model) continue;
     SporeMotion motion = spore_model_motion(model, spore_world_q(world, body), spore_world_v(world, body), &origin);
-    *momentum = spore_vec3_add(*momentum, motion.momentum);
-    *angular = spore_vec3_add(*angular, motion.angular);
+    measurement->momentum = spore_vec3_add(measurement->momentum, motion.momentum);
+    measurement->angular = spore_vec3_add(measurement->angular, motion.angular);
   }
 }
 
 static void measure_momentum(SporeMeasurement *measurement, size_t i, double *values) {
-  SporeVec3 momentum, angular;
-  sum_momentum(measurement->world, &momentum, &angular);
-  spore_vec3_store(values, momentum);
+  sum_momentum(measurement);
+  spore_vec3_store(values, measurement->momentum);
 }
 
 static void measure_angular_momentum(SporeMeasurement *measurement, size_t i, double *values) {
-  SporeVec3 momentum, angular;
-  sum_momentum(measurement->world, &momentum, &angular);
-  spore_vec3_store(values, angular);
+  sum_momentum(measurement);
+  spore_vec3_store(values, measurement->angular);
 }
 
 static void measure_contacts(SporeMeasurement *measurement, size_t i, double *values) {
@@ -344,6 +347,7 @@ const SporeColumn *spore_measurement_columns(const SporeMeasurement *measurement
 }
 
 void spore_measurement_take(SporeMeasurement *measurement, double *row) {
+  measurement->summed = false;
   for (size_t c = 0; c < measurement->column_count;) {
     const SporeColumn *column = &measurement->columns[c];
     const SporeQuantity *quantity = &spore_quantities[column->quantity];

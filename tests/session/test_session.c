@@ -263,6 +263,64 @@ static void test_carry_over(Fixture *fixture, gconstpointer data) {
   spore_session_free(new);
 }
 
+static gsize column_of(SporeSession *session, const char *name) {
+  gsize count;
+  const SporeColumn *columns = spore_session_columns(session, &count);
+  for (gsize c = 0; c < count; c++)
+    if (g_str_equal(columns[c].name, name)) return c;
+  g_error("no column %s", name);
+}
+
+/* Single steps have a row each, time 0 too; a watched point lies where it was asked for and moves; a reset begins anew.
+ */
+static void test_numbers(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  const SporeWatchRequest point = {"stone@0.01,0.12,0", spore_world_find_body(world, "stone"), {0.01, 0.12, 0}};
+  gsize rows;
+  spore_session_step(session, 5);
+  g_free(spore_session_numbers(session, 0, 1, &rows));
+  g_assert_cmpuint(rows, ==, 6);
+  g_assert_true(spore_session_watch(session, &point, 1, NULL));
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
+  spore_session_step(session, 100);
+  gsize height = column_of(session, "watch.stone@0.01,0.12,0.y");
+  g_autofree double *time_s = spore_session_numbers(session, 0, 1, &rows);
+  g_autofree double *place = spore_session_numbers(session, height, 1, &rows);
+  g_assert_cmpuint(rows, ==, 101);
+  for (gsize i = 0; i < rows; i++) g_assert_cmpfloat_with_epsilon(time_s[i], 0.001 * (double)i, 1e-12);
+  g_assert_cmpfloat_with_epsilon(place[0], 0.12, 1e-12);
+  g_assert_cmpfloat(place[100], <, 0.11);
+  SporeSessionFigures figures = spore_session_figures(session);
+  g_assert_cmpfloat(figures.local_error, >, 0);
+  g_assert_cmpuint(figures.error_body, <, spore_world_body_count(world));
+  gsize size = 0, lines = 0;
+  char *csv = spore_session_csv(session, &size);
+  for (gsize i = 0; i < size; i++) lines += csv[i] == '\n';
+  g_assert_cmpuint(lines, ==, 102);
+  spore_free(csv);
+  spore_session_reset(session);
+  g_free(spore_session_numbers(session, 0, 1, &rows));
+  g_assert_cmpuint(rows, ==, 1);
+  g_assert_true(isnan(spore_session_figures(session).local_error));
+  spore_session_free(session);
+}
+
+/* A long run keeps fewer rows, evenly, from time 0 to its end. */
+static void test_numbers_thin_out(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  gsize rows;
+  spore_session_set_speed(session, 0);
+  spore_session_step(session, 5000);
+  g_autofree double *time_s = spore_session_numbers(session, 0, 1, &rows);
+  g_assert_cmpuint(rows, >, 2000);
+  g_assert_cmpuint(rows, <, 4096);
+  g_assert_cmpfloat(time_s[0], ==, 0);
+  g_assert_cmpfloat_with_epsilon(time_s[rows - 1], 5, 0.0011);
+  for (gsize i = 1; i < rows; i++) g_assert_cmpfloat(time_s[i], >, time_s[i - 1]);
+  spore_session_free(session);
+}
+
 static void test_refused_scene(Fixture *fixture, gconstpointer data) {
   g_autoptr(GError) error = NULL;
   SporeObject *probe = spore_document_by_path(fixture->document, "bodies/probe");
@@ -289,6 +347,8 @@ int main(int argc, char **argv) {
       {"recording-repeats-taken-over", test_recording_repeats, TRUE},
       {"recording-keeps-track", test_recording_keeps_track},
       {"carry-over", test_carry_over},
+      {"numbers", test_numbers},
+      {"numbers-thin-out", test_numbers_thin_out},
       {"refused-scene", test_refused_scene},
   };
   g_test_init(&argc, &argv, NULL);

@@ -1,4 +1,5 @@
 """test_journeys.py EDITOR FEATURES: what a user does in the editor, from the empty window to the saved scene."""
+import csv
 import json
 import os
 import pathlib
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "e2e")]
@@ -1264,6 +1266,7 @@ def sleep_lateness_and_trouble_are_shown():
         editor.act("speed", "s", "100")  # which nothing keeps up with that solves equations in vain
         editor.act("play")
         ui.wait(lambda: editor.hud(r"Late steps (\d+\.\d+) %"), "late steps")
+        ui.wait(lambda: editor.hud(r"⚠ ball: (\d+) steps not solved: it stands still, .*; reset, or change its parameters"), "the warning in the view")
         editor.find("table cell", "^ball: rounding is more than its equations may miss")
         editor.find("table cell", "take softer laws and links")
         editor.find("table cell", r"^step \d+$")
@@ -1328,6 +1331,39 @@ def what_the_method_takes_is_shown():
         editor.act("select", "s", "bodies/ball")
         editor.find("text", "^Substeps$", showing=False)
         ui.wait(lambda: not editor.look("label", "^Its method takes", showing=False), "the figure to go")
+
+
+@check
+def plots_of_a_run():
+    """a run's energy, contacts and a watched point are plotted while it runs, and saved as table and picture; a wrong point is refused."""
+    with start(SCENES / "minimal.spore") as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("plot", "s", "energy")
+        editor.find("combo box", "^Quantity$")
+        editor.act("watch", "s", "ball@0.0015,0.06,0.001")
+        assert not editor.message()
+        editor.act("play")
+        ui.wait(lambda: editor.hud(r"Contacts (\d+)  ·  deepest"), "contacts and their depth")
+        ui.wait(lambda: editor.hud(r"Error of a step about (\S+) "), "the error of a step")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.5, "half a second")
+        editor.act("pause")
+        assert editor.hud(r"J  ·  (\S+) J since the start") < 0 and editor.hud(r"residual (\S+)") < 1e-3
+        table, picture = folder("plots") / "run.csv", folder("plots") / "force.svg"
+        editor.act("save-numbers", "s", str(table))
+        editor.act("plot", "s", "contacts.force")
+        editor.act("save-plot", "s", str(picture))
+        ui.wait(lambda: table.exists() and picture.exists(), "the files")
+        rows = list(csv.reader(table.read_text().splitlines()))
+        y = rows[0].index("watch.ball@0.0015,0.06,0.001.y [m]")
+        assert float(rows[1][0]) == 0 and abs(float(rows[1][y]) - 0.06) < 1e-12
+        assert len(rows) > 20 and float(rows[-1][0]) > 0.4 and float(rows[-1][y]) < 0.03
+        drawn = xml.etree.ElementTree.parse(picture)
+        assert any("Contacts: force [N]" in (text.text or "") for text in drawn.iter("{http://www.w3.org/2000/svg}text"))
+        for wrong, says in (("ball@1,1,1", "the nearest point of the body is ball@"), ("gone@0,0,0", "floor, ball"), ("ball", "BODY@X,Y,Z")):
+            editor.act("watch", "s", wrong)
+            ui.wait(lambda: says in (editor.message() or ""), f"{wrong} to be refused")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.1, "the run to go on")
 
 
 @check

@@ -1,8 +1,10 @@
 /* A simulation on a thread of its own, paced to real time or as fast as it goes. */
 #include "ui/sim/session.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/haptic/pointer.h"
 #include "core/measure/pace.h"
 
@@ -11,6 +13,12 @@
 #define SAMPLES_A_STEP 64
 /* The clock is read at least this often while waiting for the next step. */
 #define FACTOR_WINDOW_US (G_USEC_PER_SEC)
+
+/* Numbers over time: how often a simulated second, at first, and how many rows before every second one is dropped. */
+#define ROWS_A_SECOND 30
+#define MOST_ROWS 4096
+/* Steps between two looks at what was not solved. */
+#define STEPS_A_LOOK 16
 
 typedef struct {
   double time_s;
@@ -55,8 +63,14 @@ struct SporeSession {
   double factor;
   SporePace pace;
   SporeTrack recording;
+  SporeSessionFigures figures;
+  SporeNumbers numbers;
+  guint64 stride; /* steps a row */
 
-  /* The thread's own. */
+  /* The thread's own; another thread only where the first one stands. */
+  SporeMeasurement *measurement;
+  double *row; /* one value a column */
+  SporeLocalError local_error;
   gint64 factor_clock; /* us */
   double factor_time;  /* s, simulated */
 };
@@ -165,12 +179,102 @@ static void update_factor(SporeSession *session) {
   session->factor_time = time_s;
 }
 
+/* Measuring. */
+
+static double total_energy(const SporeWorld *world) {
+  SporeEnergy energy = spore_world_energy(world);
+  return energy.kinetic + energy.internal + energy.gravity + energy.contact;
+}
+
+/* What was not solved in most steps. */
+static void look_at_unsolved(const SporeWorld *world, SporeSessionFigures *figures) {
+  figures->unsolved_count = spore_world_unsolved_count(world);
+  figures->unsolved.steps = 0;
+  for (gsize i = 0; i < figures->unsolved_count; i++) {
+    SporeUnsolved entry = spore_world_unsolved(world, i);
+    if (entry.steps > figures->unsolved.steps) figures->unsolved = entry;
+  }
+}
+
+/* Begins to measure, at time 0, while no step is under way. */
+static void start_measuring(SporeSession *session) {
+  const SporeWorld *world = session->simulation->world;
+  session->figures =
+      (SporeSessionFigures){.local_error = NAN, .error_body = SPORE_NO_BODY, .energy_start = total_energy(world)};
+  spore_local_error_reset(&session->local_error);
+  spore_numbers_clear(&session->numbers);
+  session->numbers.measurement = session->measurement;
+  session->stride = (guint64)fmax(1, round(1 / (ROWS_A_SECOND * session->local_error.dt_s)));
+  spore_numbers_add(&session->numbers);
+}
+
+/* Room for a measurement's row. Takes the measurement in place of the one before. */
+static gboolean take_measurement(SporeSession *session, SporeMeasurement *measurement, GError **error) {
+  gsize columns = 0;
+  if (measurement) spore_measurement_columns(measurement, &columns);
+  double *row = measurement ? SPORE_NEW_ARRAY(double, columns) : NULL;
+  if (!row) {
+    spore_measurement_free(measurement);
+    return spore_error_raise(error, SPORE_ERROR_MEMORY, "", "not enough memory to measure the run");
+  }
+  spore_free(session->row);
+  spore_measurement_free(session->measurement);
+  session->measurement = measurement;
+  session->row = row;
+  start_measuring(session);
+  return TRUE;
+}
+
+static SporeMeasurement *new_measurement(const SporeSession *session, const SporeWatchRequest *points, gsize count,
+                                         SporeError *fault) {
+  bool all[SPORE_QUANTITY_COUNT];
+  for (gsize i = 0; i < SPORE_QUANTITY_COUNT; i++) all[i] = true;
+  return spore_measurement_create(session->simulation->world, all, points, count, fault);
+}
+
+/* What is read of the world after a step, without the mutex. */
+typedef struct {
+  gboolean error, unsolved, row; /* what there is */
+  SporeSessionFigures figures;
+} Measured;
+
+static Measured measure(SporeSession *session, guint64 stride, gboolean standing) {
+  const SporeWorld *world = session->simulation->world;
+  guint64 step = spore_world_step_count(world);
+  Measured measured = {.error = spore_local_error_step(&session->local_error, world),
+                       .unsolved = standing || step % STEPS_A_LOOK == 0,
+                       .row = standing || step % stride == 0};
+  if (measured.unsolved) look_at_unsolved(world, &measured.figures);
+  if (measured.row) spore_measurement_take(session->measurement, session->row);
+  return measured;
+}
+
+/* With the mutex held. */
+static void keep_measured(SporeSession *session, const Measured *measured) {
+  if (measured->error) {
+    session->figures.local_error = session->local_error.last;
+    session->figures.error_body = session->local_error.last_body;
+  }
+  if (measured->unsolved) {
+    session->figures.unsolved_count = measured->figures.unsolved_count;
+    session->figures.unsolved = measured->figures.unsolved;
+  }
+  if (measured->row) spore_numbers_add_row(&session->numbers, session->row);
+  if (session->numbers.row_count < MOST_ROWS) return;
+  spore_numbers_thin(&session->numbers);
+  session->stride *= 2;
+}
+
 /* With the mutex held on both sides of the step. */
 static void take_step(SporeSession *session) {
+  guint64 stride = session->stride;
+  gboolean single = session->steps > 0;
   g_mutex_unlock(&session->mutex);
   spore_world_step(session->simulation->world);
   spore_world_tidy(session->simulation->world);
+  Measured measured = measure(session, stride, single);
   g_mutex_lock(&session->mutex);
+  keep_measured(session, &measured);
   drain_recorders(session);
 }
 
@@ -191,6 +295,7 @@ static void take_reset(SporeSession *session) {
     recorder->input = OPEN_HAND;
   }
   spore_track_clear(&session->recording);
+  start_measuring(session);
   session->reset = FALSE;
   restart_pace(session);
 }
@@ -231,6 +336,14 @@ static bool is_ending(void *data) {
   return g_atomic_int_get(&session->ending) != 0;
 }
 
+static gboolean make_measurement(SporeSession *session, SporeDocument *document, GError **error) {
+  const SporeObject *solver = spore_document_section(document, "solver");
+  double dt_s = spore_object_number(solver, "time_step");
+  if (!spore_local_error_init(&session->local_error, session->simulation->world, dt_s))
+    return spore_error_raise(error, SPORE_ERROR_MEMORY, "", "not enough memory to measure the run");
+  return take_measurement(session, new_measurement(session, NULL, 0, NULL), error);
+}
+
 SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error) {
   SporeSession *session = g_new0(SporeSession, 1);
   g_mutex_init(&session->mutex);
@@ -245,7 +358,7 @@ SporeSession *spore_session_new(SporeDocument *document, int threads, const Spor
     return NULL;
   }
   session->simulation = spore_simulation_new(document, session->pool, input, &session->cancel, error);
-  if (!session->simulation || !make_recorders(session, error)) {
+  if (!session->simulation || !make_recorders(session, error) || !make_measurement(session, document, error)) {
     spore_session_free(session);
     return NULL;
   }
@@ -263,6 +376,10 @@ void spore_session_free(SporeSession *session) {
     g_mutex_unlock(&session->mutex);
     g_thread_join(session->thread);
   }
+  spore_numbers_clear(&session->numbers);
+  spore_measurement_free(session->measurement);
+  spore_free(session->row);
+  spore_local_error_clear(&session->local_error);
   if (session->simulation) spore_simulation_free(session->simulation);
   for (guint i = 0; i < session->recorder_count; i++)
     session->recorders[i].pointer->type->close(session->recorders[i].pointer);
@@ -324,6 +441,7 @@ void spore_session_reset(SporeSession *session) {
 
 void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
   spore_simulation_carry_over(to->simulation, from->simulation);
+  start_measuring(to);
 }
 
 void spore_session_set_speed(SporeSession *session, double speed) {
@@ -377,6 +495,53 @@ void spore_session_late_steps(const SporeSession *session, guint64 *late, guint6
   *late = due ? session->pace.misses : 0;
   *steps = due ? session->pace.steps : 0;
   g_mutex_unlock(&locked->mutex);
+}
+
+SporeSessionFigures spore_session_figures(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  SporeSessionFigures figures = session->figures;
+  g_mutex_unlock(&session->mutex);
+  return figures;
+}
+
+const SporeColumn *spore_session_columns(const SporeSession *session, gsize *count) {
+  return spore_measurement_columns(session->measurement, count);
+}
+
+double *spore_session_numbers(SporeSession *session, gsize first, gsize count, gsize *row_count) {
+  gsize columns;
+  spore_session_columns(session, &columns);
+  g_mutex_lock(&session->mutex);
+  const SporeNumbers *numbers = &session->numbers;
+  double *copy = g_new(double, numbers->row_count *count + 1);
+  for (gsize i = 0; i < numbers->row_count; i++)
+    memcpy(copy + i * count, numbers->values + i * columns + first, count * sizeof *copy);
+  *row_count = numbers->row_count;
+  g_mutex_unlock(&session->mutex);
+  return copy;
+}
+
+char *spore_session_csv(SporeSession *session, size_t *size) {
+  gsize columns, rows;
+  spore_session_columns(session, &columns);
+  g_autofree double *values = spore_session_numbers(session, 0, columns, &rows);
+  const SporeNumbers numbers = {.measurement = session->measurement, .row_count = rows, .values = values};
+  return spore_numbers_csv(&numbers, size);
+}
+
+gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *points, gsize count, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  g_mutex_lock(&session->mutex);
+  gboolean playing = session->playing;
+  session->playing = FALSE;
+  session->reset = spore_session_snapshot(session)->step > 0;
+  wait_standing(session);
+  SporeMeasurement *measurement = new_measurement(session, points, count, &fault);
+  gboolean taken = measurement ? take_measurement(session, measurement, error) : spore_error_propagate(&fault, error);
+  session->playing = playing;
+  g_cond_signal(&session->wake);
+  g_mutex_unlock(&session->mutex);
+  return taken;
 }
 
 static void copy_channel(SporeTrack *to, const SporeTrackChannel *source) {

@@ -2,6 +2,8 @@
 #ifndef SPORE_UI_SIM_SESSION_H
 #define SPORE_UI_SIM_SESSION_H
 
+#include "core/measure/local_error.h"
+#include "core/measure/numbers.h"
 #include "core/scene/compile.h"
 
 typedef struct SporeSession SporeSession;
@@ -32,6 +34,27 @@ SporeDeviceState spore_session_input(SporeSession *session, guint32 body);
 double spore_session_real_time_factor(const SporeSession *session);
 /* Steps since playing began, and how many of them ended too late; 0 of 0 where steps are not paced. */
 void spore_session_late_steps(const SporeSession *session, guint64 *late, guint64 *steps);
+/* What is measured of a run beside its snapshots. */
+typedef struct SporeSessionFigures {
+  double local_error;     /* m: last estimate for the body that was worst (core/measure/local_error.h); NAN: none yet */
+  guint32 error_body;     /* SPORE_NO_BODY: nothing moves */
+  double energy_start;    /* J, in all, at time 0 */
+  gsize unsolved_count;   /* bodies and causes: spore_world_unsolved_count */
+  SporeUnsolved unsolved; /* the one with most steps; read only where the count is above 0 */
+} SporeSessionFigures;
+SporeSessionFigures spore_session_figures(SporeSession *session);
+
+/* Numbers over time: all of spore_quantities, measured some 30 times a simulated second since time 0, and less often
+ * once there are thousands of rows. The columns stay until points are watched. */
+const SporeColumn *spore_session_columns(const SporeSession *session, gsize *count);
+/* Copies `count` columns from `first` on of all rows: an array of row_count x count doubles, to be freed by g_free. */
+double *spore_session_numbers(SporeSession *session, gsize first, gsize count, gsize *row_count);
+/* All of them as CSV, to be freed by spore_free. NULL: no memory. */
+char *spore_session_csv(SporeSession *session, size_t *size);
+/* Watches these points and no others, from time 0 on, where the session goes back to. FALSE: a body cannot carry its
+ * point; the points before are watched on. */
+gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *points, gsize count, GError **error);
+
 /* A copy of all device states so far. Free with spore_track_clear and g_free. */
 SporeTrack *spore_session_recording(SporeSession *session);
 

@@ -109,6 +109,8 @@ SporeSession *spore_player_get_session(SporePlayer *self) { return self->session
 
 gboolean spore_player_is_playing(SporePlayer *self) { return self->session && spore_session_is_playing(self->session); }
 
+gboolean spore_player_prepare(SporePlayer *self) { return ensure_session(self); }
+
 void spore_player_play(SporePlayer *self) {
   if (!ensure_session(self)) return;
   spore_session_play(self->session);

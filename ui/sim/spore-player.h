@@ -19,6 +19,8 @@ SporePlayer *spore_player_new(SporeEditorDocument *document);
 /* NULL while editing: nothing was compiled. */
 SporeSession *spore_player_get_session(SporePlayer *self);
 
+/* Compiles the document where that was not done yet. FALSE: it failed, which the signal tells. */
+gboolean spore_player_prepare(SporePlayer *self);
 void spore_player_play(SporePlayer *self);
 void spore_player_pause(SporePlayer *self);
 void spore_player_step(SporePlayer *self);

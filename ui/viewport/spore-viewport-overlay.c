@@ -1,6 +1,8 @@
 /* What is drawn and written over the picture: forces, the legend of colours, and figures of the simulation. */
 #include <glib/gi18n.h>
+#include <math.h>
 
+#include "core/scene/length_unit.h"
 #include "ui/document/labels.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/spore-viewport-private.h"
@@ -129,11 +131,47 @@ static void append_levels(GString *text, const SporeWorld *world, const SporeSna
   }
 }
 
+/* What the solver did, and how far the step was off. */
+static void append_solver(GString *text, const SporeWorld *world, const SporeSnapshot *snapshot,
+                          const SporeSessionFigures *figures) {
+  const SporeStepCounts *counts = &snapshot->counts;
+  if (counts->newton_iterations > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Solver %zu + %zu iterations  ·  residual %.1e"), counts->newton_iterations,
+                           counts->linear_iterations, counts->residual);
+  }
+  if (isfinite(figures->local_error) && figures->error_body != SPORE_NO_BODY) {
+    g_autofree char *error = spore_length_text(figures->local_error);
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Error of a step about %s (%s)"), error,
+                           spore_world_body_name(world, figures->error_body));
+  }
+}
+
+/* In all, and since time 0. */
+static void append_energy(GString *text, const SporeSnapshot *snapshot, const SporeSessionFigures *figures) {
+  const SporeEnergy *energy = &snapshot->energy;
+  double total = energy->kinetic + energy->internal + energy->gravity + energy->contact;
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Energy %.3g J  ·  %+.2g J since the start"), total, total - figures->energy_start);
+}
+
+/* A step that was not solved is no small thing: the body, and what to do. */
+static void append_unsolved(GString *text, const SporeWorld *world, const SporeSessionFigures *figures) {
+  if (figures->unsolved_count == 0) return;
+  g_string_append_c(text, '\n');
+  g_string_append_printf(
+      text, _("⚠ %s: %llu steps not solved: %s; %s"), spore_world_body_name(world, figures->unsolved.body),
+      (unsigned long long)figures->unsolved.steps, figures->unsolved.cause, figures->unsolved.remedy);
+}
+
 void spore_viewport_overlay_update(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   gtk_widget_set_visible(self->hud, session != NULL);
   if (!session) return;
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  SporeSessionFigures figures = spore_session_figures(session);
   GString *text = g_string_new(NULL);
   g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
   g_string_append_c(text, '\n');
@@ -151,17 +189,25 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   }
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
+  if (snapshot->counts.contact_depth > 0) {
+    g_autofree char *depth = spore_length_text(snapshot->counts.contact_depth);
+    g_string_append(text, "  ·  ");
+    g_string_append_printf(text, _("deepest %s"), depth);
+  }
   if (snapshot->counts.sleeping > 0) {
     g_string_append(text, "  ·  ");
     g_string_append_printf(text, _("Asleep %zu"), snapshot->counts.sleeping);
   }
+  append_solver(text, world, snapshot, &figures);
+  append_energy(text, snapshot, &figures);
   append_tools(text, snapshot);
-  append_levels(text, spore_session_simulation(session)->world, snapshot);
+  append_levels(text, world, snapshot);
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');
     g_string_append_printf(text, _("Probe force %.3f N"), spore_vec3_length(force));
   }
+  append_unsolved(text, world, &figures);
   gtk_label_set_text(GTK_LABEL(self->hud), text->str);
   g_string_free(text, TRUE);
 }

@@ -1,5 +1,5 @@
 /* Rows of a measurement, as CSV and as JSON. */
-#include "core/measure/series.h"
+#include "core/measure/numbers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,25 +10,44 @@
 
 #define FIRST_ROWS 256
 
-static size_t width(const SporeSeries *series) {
+static size_t width(const SporeNumbers *numbers) {
   size_t count;
-  spore_measurement_columns(series->measurement, &count);
+  spore_measurement_columns(numbers->measurement, &count);
   return count;
 }
 
-bool spore_series_add(SporeSeries *series) {
-  size_t columns = width(series);
+/* Room for another row; NULL: no memory. */
+static double *new_row(SporeNumbers *numbers) {
+  size_t columns = width(numbers);
   double *values =
-      spore_room_for_one(series->values, series->row_count, &series->capacity, FIRST_ROWS, columns * sizeof *values);
-  if (!values) return false;
-  series->values = values;
-  spore_measurement_take(series->measurement, values + columns * series->row_count++);
-  return true;
+      spore_room_for_one(numbers->values, numbers->row_count, &numbers->capacity, FIRST_ROWS, columns * sizeof *values);
+  if (!values) return NULL;
+  numbers->values = values;
+  return values + columns * numbers->row_count++;
 }
 
-void spore_series_clear(SporeSeries *series) {
-  spore_free(series->values);
-  *series = (SporeSeries){.measurement = series->measurement};
+bool spore_numbers_add(SporeNumbers *numbers) {
+  double *row = new_row(numbers);
+  if (row) spore_measurement_take(numbers->measurement, row);
+  return row != NULL;
+}
+
+bool spore_numbers_add_row(SporeNumbers *numbers, const double *values) {
+  double *row = new_row(numbers);
+  if (row) memcpy(row, values, width(numbers) * sizeof *row);
+  return row != NULL;
+}
+
+void spore_numbers_thin(SporeNumbers *numbers) {
+  size_t columns = width(numbers), kept = (numbers->row_count + 1) / 2;
+  for (size_t i = 1; i < kept; i++)
+    memcpy(numbers->values + columns * i, numbers->values + columns * 2 * i, columns * sizeof *numbers->values);
+  numbers->row_count = kept;
+}
+
+void spore_numbers_clear(SporeNumbers *numbers) {
+  spore_free(numbers->values);
+  *numbers = (SporeNumbers){.measurement = numbers->measurement};
 }
 
 static char *finish(SporeTextBuffer *text, size_t *size) {
@@ -51,17 +70,17 @@ static void add_field(SporeTextBuffer *text, const char *name, const char *unit)
   if (quoted) spore_text_add(text, "\"");
 }
 
-char *spore_series_csv(const SporeSeries *series, size_t *size) {
+char *spore_numbers_csv(const SporeNumbers *numbers, size_t *size) {
   SporeTextBuffer text = {0};
   size_t count;
-  const SporeColumn *columns = spore_measurement_columns(series->measurement, &count);
+  const SporeColumn *columns = spore_measurement_columns(numbers->measurement, &count);
   for (size_t c = 0; c < count; c++) {
     if (c > 0) spore_text_add(&text, ",");
     add_field(&text, columns[c].name, columns[c].unit);
   }
   spore_text_add(&text, "\r\n");
-  for (size_t i = 0; i < series->row_count * count; i++) {
-    spore_text_add_number(&text, series->values[i]);
+  for (size_t i = 0; i < numbers->row_count * count; i++) {
+    spore_text_add_number(&text, numbers->values[i]);
     spore_text_add(&text, (i + 1) % count == 0 ? "\r\n" : ",");
   }
   return finish(&text, size);
@@ -96,10 +115,10 @@ static void add_json_columns(SporeTextBuffer *text, const SporeColumn *columns, 
   }
 }
 
-char *spore_series_json(const SporeSeries *series, const char *scene, double dt_s, size_t *size) {
+char *spore_numbers_json(const SporeNumbers *numbers, const char *scene, double dt_s, size_t *size) {
   SporeTextBuffer text = {0};
   size_t count;
-  const SporeColumn *columns = spore_measurement_columns(series->measurement, &count);
+  const SporeColumn *columns = spore_measurement_columns(numbers->measurement, &count);
   spore_text_add(&text, "{\n  \"scene\": ");
   add_string(&text, scene);
   spore_text_add(&text, ",\n  \"dt_s\": ");
@@ -107,10 +126,10 @@ char *spore_series_json(const SporeSeries *series, const char *scene, double dt_
   spore_text_add(&text, ",\n  \"columns\": [");
   add_json_columns(&text, columns, count);
   spore_text_add(&text, "\n  ],\n  \"rows\": [");
-  for (size_t i = 0; i < series->row_count * count; i++) {
+  for (size_t i = 0; i < numbers->row_count * count; i++) {
     spore_text_add(&text, i % count > 0 ? ", " : i > 0 ? "],\n    [" : "\n    [");
-    add_json_number(&text, series->values[i]);
+    add_json_number(&text, numbers->values[i]);
   }
-  spore_text_add(&text, series->row_count > 0 ? "]\n  ]\n}\n" : "]\n}\n");
+  spore_text_add(&text, numbers->row_count > 0 ? "]\n  ]\n}\n" : "]\n}\n");
   return finish(&text, size);
 }
