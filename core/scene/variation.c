@@ -4,6 +4,8 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/integrate/integrator.h"
+
 /* Sets one property of the copy, held within its range. */
 static gboolean set_number(SporeDocument *copy, SporeObject *object, const char *name, double number, GError **error) {
   int property = spore_parameter_find(spore_object_type(object)->table, name);
@@ -57,13 +59,30 @@ static gboolean set_level(SporeDocument *copy, SporeObject *body, const char *le
   return !has || set_text(copy, fidelity, "level", level, error);
 }
 
-/* scaled: stiffness and mass are of this body, too. */
+/* Particles have no Jacobian: what is implicit would not be for them. */
+static gboolean takes(const SporeObject *mechanical, const char *integrator) {
+  const SporeModelType *model =
+      spore_object_child_count(mechanical) > 0 ? spore_object_type(spore_object_child(mechanical, 0))->model : NULL;
+  for (int kind = 0; spore_integrator_names[kind]; kind++)
+    if (g_str_equal(spore_integrator_names[kind], integrator) && model && model->rates)
+      return !spore_integrator((SporeIntegratorKind)kind)->implicit;
+  return TRUE;
+}
+
+static gboolean set_integrator(SporeDocument *copy, SporeObject *mechanical, const char *integrator, guint *taken,
+                               GError **error) {
+  if (!integrator || !takes(mechanical, integrator)) return TRUE;
+  ++*taken;
+  return set_text(copy, mechanical, "integrator", integrator, error) &&
+         set_number(copy, mechanical, "substeps", 1, error);
+}
+
+/* scaled: stiffness and mass are of this body, too. *taken: counts bodies that the integrator moves. */
 static gboolean vary_body(SporeDocument *copy, SporeObject *body, const SporeVariation *variation, gboolean scaled,
-                          GError **error) {
+                          guint *taken, GError **error) {
   SporeObject *mechanical = spore_object_child_of(body, "mechanical");
   if (!mechanical) return TRUE; /* compiling says so */
-  if (!set_text(copy, mechanical, "integrator", variation->integrator, error)) return FALSE;
-  if (variation->integrator && !set_number(copy, mechanical, "substeps", 1, error)) return FALSE;
+  if (!set_integrator(copy, mechanical, variation->integrator, taken, error)) return FALSE;
   if (!set_level(copy, body, variation->level, error)) return FALSE;
   if (!scaled || spore_object_child_count(mechanical) == 0) return TRUE;
   return vary_model(copy, spore_object_child(mechanical, 0), variation, error);
@@ -77,7 +96,7 @@ static gboolean vary_contact(SporeDocument *copy, SporeObject *body, double fact
 
 static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GError **error) {
   SporeObject *bodies = spore_document_section(copy, "bodies");
-  guint passive = 0, named = 0;
+  guint passive = 0, named = 0, taken = 0;
   if (!vary_solver(copy, variation, error)) return FALSE;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
@@ -86,11 +105,16 @@ static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GErro
     passive++;
     if (variation->body && strcmp(variation->body, spore_object_name(body)) != 0) continue;
     named++;
-    if (!vary_body(copy, body, variation, !variation->every_second || passive % 2 == 0, error)) return FALSE;
+    if (!vary_body(copy, body, variation, !variation->every_second || passive % 2 == 0, &taken, error)) return FALSE;
   }
-  if (named > 0 || !variation->body) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_INPUT, variation->body,
-                           _("physics moves no body of that name; expected a passive body; name another one"));
+  if (named == 0 && variation->body)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, variation->body,
+                             _("physics moves no body of that name; expected a passive body; name another one"));
+  if (named == 0 || taken > 0 || !variation->integrator) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, NULL,
+                           _("%s moves no body here, since the forces of particles cannot be solved for; expected an "
+                             "explicit method; choose verlet"),
+                           variation->integrator);
 }
 
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,

@@ -21,7 +21,7 @@ typedef struct SporeVariation {
 
 /* Compiles a varied copy of the document, which stays as it is. The other arguments are those of spore_simulation_new.
  * Values are held within the ranges of their parameters. NULL with a GError: no such body, integrator, solver or level,
- * or the scene cannot run so. */
+ * no body that the integrator can move, or the scene cannot run so. */
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error);
 
