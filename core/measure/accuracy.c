@@ -16,13 +16,14 @@
 #define USUAL_MOST_S 36.
 #define USUAL_REPEATS 5
 #define USUAL_STEPS 5
-#define MOST_STEPS 8        /* where there is time */
+#define LEAST_STEPS 3
+#define MOST_STEPS 8       /* where there is time */
 #define LEAST_FIRST_S 1e-5 /* the largest step of a method is no smaller */
-#define LONG_SHARE 0.01     /* runs that take longer are timed once */
-#define SAMPLES 250         /* looks at a run, at most */
-#define POINTS_SHARE 0.1    /* of the time, for one run of every point */
-#define RUN_SHARE 0.05      /* for a single run */
-#define REPEATS_SHARE 0.9   /* repeats end then */
+#define LONG_SHARE 0.01    /* runs that take longer are timed once */
+#define SAMPLES 250        /* looks at a run, at most */
+#define POINTS_SHARE 0.1   /* of the time, for one run of every point */
+#define RUN_SHARE 0.05     /* for a single run */
+#define REPEATS_SHARE 0.9  /* repeats end then */
 #define LONGEST_STEP_S 0.1
 #define LEAST_HIGH_S 0.008 /* the largest step that implicit methods are tried with, at least */
 
@@ -135,8 +136,9 @@ static SporeStudyOutcome run_point(SporeStudy *study, size_t index) {
   SporeStudyOutcome outcome = spore_study_run(study, &world, &how, &study->trials[index], &why);
   if (outcome == SPORE_STUDY_TOO_LONG)
     spore_study_cut(study, _("%s at %.3g ms: given up after %.2g s"), fit->label, 1e3 * point->dt_s, how.most_s);
-  if (outcome == SPORE_STUDY_REFUSED)
-    spore_study_cut(study, _("%s: the scene does not run so: %s"), fit->label, why.message);
+  if (outcome != SPORE_STUDY_REFUSED) return outcome;
+  study->refusal = why;
+  spore_study_cut(study, _("%s: the scene does not run so: %s"), fit->label, why.message);
   return outcome;
 }
 
@@ -147,11 +149,6 @@ static double cost_of(const SporeStudy *study, size_t steps) {
   if (options->dt_count > 1) ratio = pow(options->dt_high_s / options->dt_low_s, 1 / (double)(options->dt_count - 1));
   for (size_t i = 0; i < steps; i++) sum += pow(ratio, (double)i);
   return sum;
-}
-
-static void drop_trials(SporeStudy *study) {
-  for (size_t i = 0; i < study->report->point_count; i++) spore_trial_clear(&study->trials[i]);
-  study->report->point_count = 0;
 }
 
 static void set_samples(SporeStudy *study) {
@@ -166,36 +163,50 @@ typedef struct Pair { /* a method at a level */
   double first_s;
 } Pair;
 
-/* The first step of every method, until all steps of all methods fit in the time; the stretch gets shorter till then.
- */
+/* What the first steps of all methods take on the processor. Less than 0: the study ended. */
+static double time_first_steps(SporeStudy *study, const Pair *pairs, size_t count) {
+  SporeAccuracyReport *report = study->report;
+  double sum = 0;
+  for (size_t p = 0; p < count; p++) {
+    size_t cuts = report->cut_count;
+    report->points[0] = (SporeAccuracyPoint){
+        .method = pairs[p].method, .level = pairs[p].level, .dt_s = step_at(study, pairs[p].first_s, 0)};
+    SporeStudyOutcome outcome = run_point(study, 0);
+    if (outcome == SPORE_STUDY_ENDED) return -1;
+    while (report->cut_count > cuts) spore_free(report->cuts[--report->cut_count]); /* said when it counts */
+    sum += outcome == SPORE_STUDY_TOO_LONG ? RUN_SHARE * study->most_s : study->trials[0].cpu_s;
+    spore_trial_clear(&study->trials[0]);
+  }
+  return sum;
+}
+
+/* Makes the stretch as long, and the steps as many, as the time allows, by short runs of every method. */
 static bool fit_stretch(SporeStudy *study, const Pair *pairs, size_t count) {
   SporeAccuracyReport *report = study->report;
-  double wanted_s = report->time_s, most_s = POINTS_SHARE * study->most_s, first_s = 0;
-  for (;;) {
-    first_s = 0;
-    drop_trials(study);
-    for (size_t p = 0; p < count; p++) {
-      report->points[0] = (SporeAccuracyPoint){
-          .method = pairs[p].method, .level = pairs[p].level, .dt_s = step_at(study, pairs[p].first_s, 0)};
-      size_t cuts = report->cut_count;
-      SporeStudyOutcome outcome = run_point(study, 0);
-      if (outcome == SPORE_STUDY_ENDED) return false;
-      while (report->cut_count > cuts) spore_free(report->cuts[--report->cut_count]); /* said when it counts */
-      first_s += outcome == SPORE_STUDY_TOO_LONG ? most_s : study->trials[0].cpu_s;
-      spore_trial_clear(&study->trials[0]);
-    }
-    double cost_s = first_s * cost_of(study, study->steps);
-    bool shortest = report->time_s * 0.5 < fmax(LEAST_TIME_S, 4 * report->interval_s);
-    if (study->options->full || cost_s <= most_s || shortest) break;
-    report->time_s *= cost_s > 4 * most_s && report->time_s * 0.25 >= LEAST_TIME_S ? 0.25 : 0.5;
-    set_samples(study);
-  }
+  double wanted_s = report->time_s, most_s = POINTS_SHARE * study->most_s;
+  if (study->options->full) return true;
+  report->time_s = fmin(wanted_s, fmax(LEAST_TIME_S, 4 * report->interval_s));
+  set_samples(study);
+  double shortest_s = report->time_s, first_s = time_first_steps(study, pairs, count);
+  if (first_s < 0) return false;
+  double possible_s = shortest_s * most_s / (first_s * cost_of(study, study->steps));
+  report->time_s = fmin(wanted_s, fmax(possible_s, shortest_s));
+  set_samples(study);
+  double each_s = first_s * report->time_s / shortest_s;
   while (study->options->dt_count == 0 && study->steps < MOST_STEPS &&
-         first_s * cost_of(study, study->steps + 1) <= most_s)
+         each_s * cost_of(study, study->steps + 1) <= most_s)
     study->steps++;
   if (report->time_s < wanted_s * (1 - 1e-9))
     spore_study_cut(study, _("the stretch is %.3g s instead of %.3g s"), report->time_s, wanted_s);
   return true;
+}
+
+/* Whether the next step of a method, twice the work of the last one, is too much. done: steps that were run. */
+static bool is_too_much(const SporeStudy *study, double last_s, size_t done) {
+  double most_s = RUN_SHARE * study->most_s;
+  if (done >= LEAST_STEPS)
+    most_s = fmin(most_s, 2 * POINTS_SHARE * study->most_s / (double)study->report->method_count);
+  return !study->options->full && 2 * last_s > most_s;
 }
 
 /* All steps of a method at a level, the largest first, while there is time. */
@@ -206,7 +217,7 @@ static bool run_pair(SporeStudy *study, const Pair *pair) {
   size_t left = 0;
   for (size_t i = 0; i < study->steps; i++) {
     double dt_s = step_at(study, pair->first_s, i);
-    if (!study->options->full && 2 * last_s > RUN_SHARE * study->most_s) {
+    if (is_too_much(study, last_s, i - left)) {
       left++;
       continue;
     }
@@ -252,8 +263,13 @@ static bool plan_and_run(SporeStudy *study, const SporeWorld *world) {
   good = good && fit_stretch(study, pairs, count) && run_points(study, pairs, count);
   spore_free(pairs);
   if (!good || report->point_count > 0) return good;
-  return spore_error_set(study->error, SPORE_ERROR_INPUT, NULL, "%s; %s", _("no method runs this scene"),
-                         report->cut_count ? report->cuts[0] : "");
+  if (study->refusal.code != SPORE_ERROR_NONE)
+    return spore_error_set(study->error, SPORE_ERROR_INPUT, NULL, "%s", study->refusal.message);
+  return spore_error_set(
+      study->error, SPORE_ERROR_NUMERICAL, NULL,
+      _("no method runs a stretch of %.3g s within %.2g s; expected one that does; ask for a shorter "
+        "one (--time), larger steps (--dt), or for --full"),
+      report->time_s, RUN_SHARE * study->most_s);
 }
 
 /* Whether the run of a point takes so long that once is enough. */

@@ -22,6 +22,7 @@ typedef struct SporeStudy {
   double started_s; /* by spore_study_processor_s */
   double until_s;   /* a single run ends there; 0: never */
   double done;      /* for progress, 0..1 */
+  SporeError refusal; /* the last reason why the scene did not run by a method */
   SporeError *error;
 } SporeStudy;
 
