@@ -5,6 +5,7 @@
 
 #include "app/cli/accuracy_report.h"
 #include "app/cli/accuracy_scene.h"
+#include "app/cli/svg_picture.h"
 #include "core/base/number.h"
 #include "core/integrate/integrator.h"
 #include "core/io/scene_xml.h"
@@ -126,26 +127,50 @@ static gboolean check_levels(const SporeRun *run, const GArray *levels, GError *
                              "levels, or leave the option out"));
 }
 
-static gboolean write_text(const char *file, char *text, GError **error) {
-  gboolean written = text && spore_write_file(file, text, strlen(text), error);
-  g_free(text);
-  return written;
+/* A file that is to be written. */
+typedef struct Output {
+  const char *file; /* NULL: none */
+  char *text;
+  gsize size;
+} Output;
+
+static gboolean make_outputs(const char *scene, const Request *request, const SporeAccuracyReport *report,
+                             Output outputs[4], GError **error) {
+  g_autofree char *svg = request->svg || request->png ? spore_accuracy_plot(scene, report, error) : g_strdup("");
+  if (!svg) return FALSE;
+  outputs[0] = (Output){request->csv, request->csv ? spore_accuracy_csv(report) : NULL, 0};
+  outputs[1] = (Output){request->svg, request->svg ? g_strdup(svg) : NULL, 0};
+  outputs[2] = (Output){request->html, request->html ? spore_accuracy_html(scene, report, error) : NULL, 0};
+  for (int i = 0; i < 3; i++)
+    if (outputs[i].text) outputs[i].size = strlen(outputs[i].text);
+  outputs[3].file = request->png;
+  if (request->png) outputs[3].text = spore_cli_png_of_svg(svg, &outputs[3].size, error);
+  return (!request->html || outputs[2].text) && (!request->png || outputs[3].text);
 }
 
+/* Nothing is written before all of it is made. */
 static gboolean write_files(const char *scene, const Request *request, const SporeAccuracyReport *report,
                             GError **error) {
-  if (request->csv && !write_text(request->csv, spore_accuracy_csv(report), error)) return FALSE;
-  if (request->svg && !write_text(request->svg, spore_accuracy_plot(scene, report, error), error)) return FALSE;
-  return !request->html || write_text(request->html, spore_accuracy_html(scene, report, error), error);
+  Output outputs[4] = {{NULL}};
+  gboolean good = make_outputs(scene, request, report, outputs, error);
+  for (gsize i = 0; i < G_N_ELEMENTS(outputs); i++) {
+    if (good && outputs[i].file) good = spore_write_file(outputs[i].file, outputs[i].text, outputs[i].size, error);
+    g_free(outputs[i].text);
+  }
+  return good;
 }
 
+/* Asked before the work, which takes long. */
 static gboolean may_write(const char *scene, const Request *request, GError **error) {
-  const char *const files[] = {request->csv, request->svg, request->html};
+  const char *const files[] = {request->csv, request->svg, request->html, request->png};
+  gsize size;
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
     if (files[i] && !spore_cli_has_room(files[i], scene, error)) return FALSE;
   if (!request->png) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, "--png",
-                           _("this build makes no PNG of a plot; expected --svg; write that and convert it"));
+  g_autofree char *picture =
+      spore_cli_png_of_svg("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\"/>", &size, error);
+  if (!picture) g_prefix_error(error, "--png: ");
+  return picture != NULL;
 }
 
 static gboolean study(SporeCli *cli, const char *file, const Request *request, SporeAccuracyOptions *options,

@@ -188,7 +188,7 @@ static bool find_own_error(SporeStudy *study, const SporeTrial *coarse, const Sp
   double nominal = spore_study_nominal_order(study->report->methods[reference->method].method.integrator);
   reference->order = near > 0 ? log(far / near) / log(coarse->dt_s / middle->dt_s) : nominal;
   double order = isfinite(reference->order) ? fmin(fmax(reference->order, SLOWEST), nominal) : SLOWEST;
-  reference->own_error = richardson(near, order, ratio);
+  reference->own_error = study->report->statistics ? near : richardson(near, order, ratio); /* means keep no order */
   return reference->own_error <= LOST || (study->report->statistics && isfinite(near)) || refuse(study);
 }
 

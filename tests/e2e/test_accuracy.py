@@ -88,6 +88,17 @@ def report_holds_what_the_contract_says():
 
 
 @check
+def plots_are_pictures_where_that_can_be():
+    """PNG of at least the size of the plot, or a refusal before any work."""
+    done = subprocess.run([SPORE, "accuracy", swing(), *FEW, "--png", "a.png"], capture_output=True, text=True, cwd=WORK)
+    if done.returncode == 0:
+        content = (WORK / "a.png").read_bytes()
+        assert content.startswith(b"\x89PNG") and int.from_bytes(content[16:20], "big") >= 960
+    else:
+        assert done.returncode == 2 and done.stderr.startswith("--png: ") and "--svg" in done.stderr and not (WORK / "a.png").exists(), done
+
+
+@check
 def errors_are_those_of_the_swing():
     """A ball on a spring swings by a cosine: what is said of each point of implicit Euler follows from that."""
     report = json.loads(spore(swing(), *FEW, "--json").stdout)
