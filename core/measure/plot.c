@@ -354,14 +354,14 @@ static void draw_legend(Text *text, const SporePlotPanel *panel) {
       add(text, "\" stroke-dasharray=\"");
       add(text, dashes[l % COLOURS]);
       add(text, "\" d=\"M");
-      add_number(text, x - 8);
+      add_number(text, x - 6);
       add(text, " ");
       add_number(text, TOP - 27);
-      add(text, "h26\"/>\n");
+      add(text, "h22\"/>\n");
     }
     draw_point(text, x + 5, TOP - 27, 4.5, l, false);
-    add_text(text, x + 15, TOP - 23, "", panel->lines[l].label);
-    x += 42 + width_of(panel->lines[l].label);
+    add_text(text, x + 21, TOP - 23, "", panel->lines[l].label);
+    x += 44 + width_of(panel->lines[l].label);
   }
 }
 
