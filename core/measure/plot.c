@@ -22,6 +22,8 @@
 
 const char *const spore_plot_colours[SPORE_PLOT_COLOURS] = {"#0072b2", "#d55e00", "#009e73",
                                                             "#cc79a7", "#e69f00", "#56b4e9"};
+/* Dashes by line, the first one whole. */
+static const char *const dashes[] = {"", "7 4", "2 3", "10 3 2 3", "4 2", "12 5"};
 
 typedef SporeTextBuffer Text;
 
@@ -174,12 +176,56 @@ static void draw_axes(Text *text, const Axis *x, const Axis *y, const SporePlotP
   add(text, "</g>\n");
 }
 
+/* Shape of a line's points about (0, 0), of radius 1. The first line's is a circle, which is drawn as such. */
+static const char *const shapes[] = {"",
+                                     "M-.85-.85H.85V.85H-.85Z",
+                                     "M0-1.15L1.05.7H-1.05Z",
+                                     "M0-1.25L1.25 0L0 1.25L-1.25 0Z",
+                                     "M0 1.15L1.05-.7H-1.05Z",
+                                     "M-1.2-.35H-.35V-1.2H.35V-.35H1.2V.35H.35V1.2H-.35V.35H-1.2Z"};
+
+static void draw_point(Text *text, double x, double y, double radius, size_t number, bool hollow) {
+  const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS], *shape = shapes[number % SPORE_PLOT_COLOURS];
+  if (*shape) {
+    add(text, "<path d=\"");
+    add(text, shape);
+    add(text, "\" transform=\"translate(");
+    add_number(text, x);
+    add(text, " ");
+    add_number(text, y);
+    add(text, ") scale(");
+    add_number(text, radius);
+    add(text, ")\"");
+  } else {
+    add(text, "<circle");
+    add_attribute(text, "r", radius);
+    add_attribute(text, "cx", x);
+    add_attribute(text, "cy", y);
+  }
+  add(text, " fill=\"");
+  add(text, hollow ? "white" : colour);
+  add(text, "\" stroke=\"");
+  add(text, colour);
+  add(text, *shape ? "\" stroke-width=\"0.35\"/>\n" : "\" stroke-width=\"1.3\"/>\n");
+}
+
+static void draw_ring(Text *text, double x, double y) {
+  add(text, "<ellipse rx=\"8\" ry=\"8\" fill=\"none\" stroke=\"#222222\" stroke-width=\"1.3\" transform=\"translate(");
+  add_number(text, x);
+  add(text, " ");
+  add_number(text, y);
+  add(text, ")\"/>\n");
+}
+
 static void draw_line(Text *text, const Axis *x, const Axis *y, const SporePlotLine *line, size_t number) {
-  const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS];
   bool first = true;
   if (!line->scattered) {
     add(text, "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"");
-    add(text, colour);
+    add(text, spore_plot_colours[number % SPORE_PLOT_COLOURS]);
+    if (number % SPORE_PLOT_COLOURS) {
+      add(text, "\" stroke-dasharray=\"");
+      add(text, dashes[number % SPORE_PLOT_COLOURS]);
+    }
     add(text, "\" points=\"");
     for (size_t i = 0; i < line->count; i++) {
       if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
@@ -193,13 +239,58 @@ static void draw_line(Text *text, const Axis *x, const Axis *y, const SporePlotL
   }
   for (size_t i = 0; (line->scattered || line->count <= POINTS_MOST) && i < line->count; i++) {
     if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
-    add(text, "<circle r=\"3.5\" fill=\"");
-    add(text, colour);
-    add(text, "\"");
-    add_attribute(text, "cx", place(x, line->x[i]));
-    add_attribute(text, "cy", place(y, line->y[i]));
-    add(text, "/>\n");
+    double at_x = place(x, line->x[i]), at_y = place(y, line->y[i]);
+    draw_point(text, at_x, at_y, 3.5, number, line->hollow && line->hollow[i]);
+    if (line->ringed && line->ringed[i]) draw_ring(text, at_x, at_y);
   }
+}
+
+/* A label at the end of a line that lies farthest to the right. */
+typedef struct EndLabel {
+  double x, y;
+  const char *text;
+} EndLabel;
+
+static bool find_end(const Axis *x, const Axis *y, const SporePlotLine *line, EndLabel *end) {
+  *end = (EndLabel){-HUGE_VAL, 0, line->label};
+  for (size_t i = 0; i < line->count; i++)
+    if (shows(x, line->x[i]) && shows(y, line->y[i]) && place(x, line->x[i]) > end->x)
+      end->x = place(x, line->x[i]), end->y = place(y, line->y[i]);
+  return isfinite(end->x);
+}
+
+/* Labels from the top down, none on another one. */
+static void draw_end_labels(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+  double last = -HUGE_VAL, last_y = -HUGE_VAL;
+  size_t last_line = 0;
+  for (size_t drawn = 0; drawn < panel->line_count; drawn++) {
+    EndLabel best = {0, HUGE_VAL, NULL};
+    size_t best_line = 0;
+    for (size_t l = 0; l < panel->line_count; l++) {
+      EndLabel end;
+      bool before = !find_end(x, y, &panel->lines[l], &end) || end.y < last_y || (end.y == last_y && l <= last_line);
+      if (before && drawn > 0) continue;
+      if (end.text && isfinite(end.x) && end.y < best.y) best = end, best_line = l;
+    }
+    if (!best.text) return;
+    last_y = best.y, last_line = best_line;
+    last = fmax(best.y + 4, last + 14);
+    add_text(text, x->to + 12, last, " font-size=\"11\"", best.text);
+    add_line(text, best.x + 6, best.y, x->to + 9, last - 4, " stroke=\"#999999\" stroke-width=\"0.7\"");
+  }
+}
+
+static void draw_shade(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+  if (!(panel->shade_below > y->low)) return;
+  double top = panel->shade_below < y->high ? place(y, panel->shade_below) : y->to;
+  add(text, "<rect fill=\"#e8e8e8\"");
+  add_attribute(text, "x", x->from);
+  add_attribute(text, "y", top);
+  add_attribute(text, "width", x->to - x->from);
+  add_attribute(text, "height", y->from - top);
+  add(text, "/>\n");
+  if (panel->shade_label)
+    add_text(text, x->from + 6, y->from - 7, " fill=\"#555555\" font-size=\"11\"", panel->shade_label);
 }
 
 /* The label stands on the side that has room. */
@@ -214,16 +305,6 @@ static void draw_mark(Text *text, const Axis *x, const Axis *y, const SporePlotP
   for (int k = 0; k < 2; k++) add_text(text, at + (right ? 6 : -6), y->to + 14, ways[!right][k], panel->mark_label);
 }
 
-static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
-  Axis x = {.from = left + LEFT, .to = left + PANEL_WIDTH - RIGHT, .logarithmic = panel->log_x};
-  Axis y = {.from = HEIGHT - BOTTOM, .to = TOP, .logarithmic = panel->log_y};
-  if (!fit_axis(&x, panel, false) || !fit_axis(&y, panel, true)) return false;
-  draw_axes(text, &x, &y, panel);
-  for (size_t l = 0; l < panel->line_count; l++) draw_line(text, &x, &y, &panel->lines[l], l);
-  draw_mark(text, &x, &y, panel);
-  return true;
-}
-
 /* Approximate width of a label, by its number of characters. */
 static double width_of(const char *text) {
   double count = 0;
@@ -231,17 +312,44 @@ static double width_of(const char *text) {
   return 7 * count;
 }
 
+/* Pixels that labels at the ends of lines need. */
+static double room_for_labels(const SporePlotPanel *panel) {
+  double most = 0;
+  for (size_t l = 0; panel->label_lines && l < panel->line_count; l++)
+    most = fmax(most, width_of(panel->lines[l].label));
+  return most;
+}
+
+static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
+  Axis x = {
+      .from = left + LEFT, .to = left + PANEL_WIDTH - RIGHT - room_for_labels(panel), .logarithmic = panel->log_x};
+  Axis y = {.from = HEIGHT - BOTTOM, .to = TOP, .logarithmic = panel->log_y};
+  if (!fit_axis(&x, panel, false) || !fit_axis(&y, panel, true)) return false;
+  draw_shade(text, &x, &y, panel);
+  draw_axes(text, &x, &y, panel);
+  for (size_t l = 0; l < panel->line_count; l++) draw_line(text, &x, &y, &panel->lines[l], l);
+  draw_mark(text, &x, &y, panel);
+  if (panel->label_lines) draw_end_labels(text, &x, &y, panel);
+  return true;
+}
+
 static void draw_legend(Text *text, const SporePlotPanel *panel) {
   double x = LEFT;
   for (size_t l = 0; l < panel->line_count; l++) {
-    add(text, "<circle r=\"4.5\" fill=\"");
-    add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
-    add(text, "\"");
-    add_attribute(text, "cx", x + 5);
-    add_attribute(text, "cy", TOP - 27);
-    add(text, "/>\n");
-    add_text(text, x + 15, TOP - 23, "", panel->lines[l].label);
-    x += 34 + width_of(panel->lines[l].label);
+    if (l % SPORE_PLOT_COLOURS) {
+      add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
+      add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
+      add(text, "\" stroke-dasharray=\"");
+      add(text, dashes[l % SPORE_PLOT_COLOURS]);
+      add(text, "\" d=\"M");
+      add_number(text, x - 6);
+      add(text, " ");
+      add_number(text, TOP - 27);
+      add(text, "h22\"/>\n");
+    }
+    draw_point(text, x + 5, TOP - 27, 4.5, l, false);
+    add_text(text, x + 21, TOP - 23, "", panel->lines[l].label);
+    x += 44 + width_of(panel->lines[l].label);
   }
 }
 

@@ -1,4 +1,5 @@
-/* Plots as SVG: panels side by side with lines through measured points. */
+/* Plots as SVG: panels side by side with lines through measured points. Lines differ by colour, by the shape of their
+ * points and by their dashes, so that they can be told apart in black and white. */
 #ifndef SPORE_MEASURE_PLOT_H
 #define SPORE_MEASURE_PLOT_H
 
@@ -10,11 +11,11 @@
 /* A line through points, in this order. Points that are not finite, or not above 0 on a logarithmic axis, are left out.
  */
 typedef struct SporePlotLine {
-  const char
-      *label; /* translated; lines of the same index in the panels have the same colour, and there is one legend */
+  const char *label; /* translated; lines of the same index in the panels look the same, and there is one legend */
   size_t count;
   const double *x, *y;
-  bool scattered; /* points alone, not joined; lines of many points are drawn without them */
+  bool scattered;              /* points alone, not joined; lines of many points are drawn without them */
+  const bool *hollow, *ringed; /* count: points drawn empty, and with a ring around; NULL: none */
 } SporePlotLine;
 
 typedef struct SporePlotPanel {
@@ -24,6 +25,9 @@ typedef struct SporePlotPanel {
   size_t line_count;
   const char *mark_label; /* of a vertical line at mark_x; NULL: none */
   double mark_x;
+  double shade_below;      /* a grey band from there down, on a logarithmic axis; 0: none */
+  const char *shade_label; /* in the band */
+  bool label_lines;        /* labels stand at the ends of the lines, too */
 } SporePlotPanel;
 
 /* Colours of lines, "#rrggbb", of Okabe and Ito (2008), which people with colour blindness can distinguish. Line i has

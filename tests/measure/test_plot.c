@@ -57,6 +57,56 @@ static void test_nothing(void) {
   g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
 }
 
+/* Lines differ without colour: by the shape of their points and their dashes. */
+static void test_black_and_white(void) {
+  const double x[] = {1, 10}, y[] = {5, 50};
+  const SporePlotLine lines[] = {{"a", 2, x, y, false}, {"b", 2, x, y, false}, {"c", 2, x, y, false}};
+  SporePlotPanel panel = {"x", "y", true, true, lines, 3, NULL, 0};
+  char *svg = spore_plot_svg("title", NULL, &panel, 1, NULL);
+  const char *first = strstr(svg, "<polyline"), *second = strstr(first + 1, "<polyline"),
+             *third = strstr(second + 1, "<polyline");
+  g_autofree char *dash = g_strndup(strstr(second, "stroke-dasharray"), 22),
+                  *other = g_strndup(strstr(third, "stroke-dasharray"), 22);
+  g_assert_true(strstr(first, "stroke-dasharray") > second);
+  g_assert_cmpstr(dash, !=, other);
+  g_autofree char *shape = g_strndup(strstr(second, "<path d="), 16), *next = g_strndup(strstr(third, "<path d="), 16);
+  g_assert_cmpstr(shape, !=, next);
+  spore_free(svg);
+}
+
+/* Empty and ringed points, the band, and labels at the ends of lines, none on another one. */
+static void test_marks(void) {
+  const double x[] = {1, 10}, y[] = {0.5, 50};
+  const bool hollow[] = {false, true}, ringed[] = {true, false};
+  const SporePlotLine lines[] = {{"first", 2, x, y, false, hollow, ringed}, {"second", 2, x, y, false}};
+  SporePlotPanel panel = {.x_label = "x",
+                          .y_label = "y",
+                          .log_x = true,
+                          .log_y = true,
+                          .lines = lines,
+                          .line_count = 2,
+                          .shade_below = 5,
+                          .shade_label = "dim",
+                          .label_lines = true};
+  char *svg = spore_plot_svg("title", NULL, &panel, 1, NULL);
+  g_autoptr(GArray) c = centres(svg);
+  const double *p = (const double *)(gconstpointer)c->data;
+  const char *band = strstr(svg, "<rect fill=\"#e8e8e8\"");
+  double top = g_ascii_strtod(strstr(band, " y=\"") + 4, NULL);
+  g_assert_cmpfloat_with_epsilon(top, 0.5 * (p[1] + p[3]), 0.02); /* 5 is half way from 0.5 to 50 */
+  g_assert_nonnull(strstr(band, ">dim</text>"));
+  g_assert_nonnull(strstr(svg, "fill=\"white\" stroke"));
+  const char *ring = strstr(svg, "<ellipse");
+  g_assert_nonnull(ring);
+  g_assert_null(strstr(ring + 1, "<ellipse"));
+  const char *first = strstr(svg, "font-size=\"11\">first"), *second = strstr(svg, "font-size=\"11\">second");
+  g_assert_true(first && second);
+  while (strncmp(first, " y=", 3) != 0) first--;
+  while (strncmp(second, " y=", 3) != 0) second--;
+  g_assert_cmpfloat(fabs(g_ascii_strtod(first + 4, NULL) - g_ascii_strtod(second + 4, NULL)), >=, 12);
+  spore_free(svg);
+}
+
 /* Each allocation fails in turn. */
 static void test_memory(void) {
   const double x[] = {1, 2}, y[] = {1, 2};
@@ -78,6 +128,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/measure/plot/logarithmic", test_logarithmic);
   g_test_add_func("/measure/plot/left-out", test_left_out);
   g_test_add_func("/measure/plot/nothing", test_nothing);
+  g_test_add_func("/measure/plot/black_and_white", test_black_and_white);
+  g_test_add_func("/measure/plot/marks", test_marks);
   g_test_add_func("/measure/plot/memory", test_memory);
   return g_test_run();
 }

@@ -1,0 +1,120 @@
+/* Makes the worlds of an accuracy study: variations of a document, with the input from some time on. */
+#include "app/cli/accuracy_scene.h"
+
+#include <glib/gi18n.h>
+
+#include "core/scene/variation.h"
+
+struct SporeAccuracySource {
+  SporeRun *run;
+  const char *body;
+  GPtrArray *simulations; /* of the worlds that were made and not dropped */
+  SporeTrack shifted;     /* the input from start_s on; empty: from time 0 */
+  double start_s;
+};
+
+/* Appends what the channel says from start_s on, as if that were time 0. */
+static gboolean shift_channel(SporeTrackChannel *to, const SporeTrackChannel *from, double start_s) {
+  SporeDevice *device = spore_track_device_create(from);
+  SporeDeviceState first;
+  const SporeDeviceCommand nothing = {0};
+  gboolean good =
+      device && device->type->exchange(device, start_s, &nothing, &first) && spore_track_append(to, 0, &first);
+  for (gsize i = 0; good && i < from->count; i++)
+    if (from->time_s[i] > start_s) good = spore_track_append(to, from->time_s[i] - start_s, &from->states[i]);
+  if (device) device->type->close(device);
+  return good;
+}
+
+/* Makes the input begin at start_s. */
+static gboolean shift(SporeAccuracySource *source, double start_s, SporeError *error) {
+  const SporeTrack *track = source->run->simulation->track;
+  if (source->start_s == start_s || !track) return TRUE;
+  spore_track_clear(&source->shifted);
+  source->start_s = start_s;
+  for (gsize i = 0; start_s > 0 && i < track->channel_count; i++) {
+    SporeTrackChannel *channel = spore_track_add_channel(&source->shifted, track->channels[i].name);
+    if (!channel || !shift_channel(channel, &track->channels[i], start_s))
+      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the recorded input"));
+  }
+  return TRUE;
+}
+
+/* The name of a choice; NULL: the scene's. */
+static const char *name_of(const char *const *names, int choice) { return choice < 0 ? NULL : names[choice]; }
+
+static SporeWorld *make(void *data, const SporeAccuracyWorld *world, SporeError *error) {
+  SporeAccuracySource *source = data;
+  const SporeAccuracyMethod *method = world->method;
+  const SporeVariation variation = {.body = source->body,
+                                    .integrator = method ? name_of(spore_integrator_names, method->integrator) : NULL,
+                                    .nonlinear = method ? name_of(spore_nonlinear_names, method->nonlinear) : NULL,
+                                    .linear = method ? name_of(spore_linear_names, method->linear) : NULL,
+                                    .level = name_of(spore_lod_names, world->level),
+                                    .dt_s = world->dt_s,
+                                    .tolerance = world->tolerance,
+                                    .awake = world->awake};
+  g_autoptr(GError) reason = NULL;
+  if (!shift(source, world->start_s, error)) return NULL;
+  SporeRun *run = source->run;
+  const SporeTrack *input = source->shifted.channel_count ? &source->shifted
+                            : run->input.channel_count    ? &run->input
+                                                          : NULL;
+  SporeSimulation *simulation =
+      spore_variation_make(run->document, &variation, run->pool, input, spore_cli_cancel(), &reason);
+  if (simulation) {
+    g_ptr_array_add(source->simulations, simulation);
+    return simulation->world;
+  }
+  spore_error_set(error, (SporeErrorCode)reason->code, NULL, "%s", reason->message);
+  return NULL;
+}
+
+static void drop(void *data, SporeWorld *world) {
+  SporeAccuracySource *source = data;
+  for (guint i = 0; i < source->simulations->len; i++)
+    if (((SporeSimulation *)g_ptr_array_index(source->simulations, i))->world == world) {
+      g_ptr_array_remove_index_fast(source->simulations, i);
+      return;
+    }
+}
+
+/* The method of the bodies, or where they differ that of the solver. */
+static SporeIntegratorKind own_integrator(const SporeRun *run, const char *wanted) {
+  const SporeWorld *world = run->simulation->world;
+  const char *name = NULL;
+  gboolean mixed = FALSE;
+  for (guint32 body = 0; body < spore_world_body_count(world); body++) {
+    SporeMethod method;
+    if (!spore_world_body_method(world, body, &method)) continue;
+    if (wanted && !g_str_equal(wanted, spore_world_body_name(world, body))) continue;
+    mixed |= name && !g_str_equal(name, method.integrator.name);
+    name = method.integrator.name;
+  }
+  if (mixed || !name)
+    return (SporeIntegratorKind)spore_object_number(spore_document_section(run->document, "solver"), "integrator");
+  int kind = 0;
+  while (!g_str_equal(spore_integrator_names[kind], name)) kind++;
+  return (SporeIntegratorKind)kind;
+}
+
+SporeAccuracySource *spore_accuracy_source_new(SporeRun *run, const char *body, SporeAccuracyScene *scene) {
+  SporeAccuracySource *source = g_new0(SporeAccuracySource, 1);
+  source->run = run;
+  source->body = body;
+  source->simulations = g_ptr_array_new_with_free_func((GDestroyNotify)spore_simulation_free);
+  *scene = (SporeAccuracyScene){
+      .data = source,
+      .make = make,
+      .drop = drop,
+      .starts_late = spore_object_child_count(spore_document_section(run->document, "effects")) == 0,
+      .own = {own_integrator(run, body), -1, -1},
+      .dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step")};
+  return source;
+}
+
+void spore_accuracy_source_free(SporeAccuracySource *source) {
+  g_ptr_array_unref(source->simulations);
+  spore_track_clear(&source->shifted);
+  g_free(source);
+}

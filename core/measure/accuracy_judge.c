@@ -1,0 +1,211 @@
+/* Judges the points of an accuracy study: errors, orders, which are worth their time, and one sentence. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/measure/accuracy_private.h"
+
+#define RESOLVED 10 /* times the reference's own error */
+#define SPREADS 2   /* of the means of perturbed runs */
+#define LOST 0.5    /* errors above tell no order */
+#define FLAT 0.3    /* an order below is none */
+#define SAME_COST 1.1
+#define NEARER 1.2 /* times, to be worth a word */
+#define WORSE 5    /* times the error of another method at the same step */
+
+double spore_study_nominal_order(SporeIntegratorKind kind) {
+  switch (kind) {
+  case SPORE_INTEGRATOR_RK4:
+    return 4;
+  case SPORE_INTEGRATOR_VERLET:
+  case SPORE_INTEGRATOR_IMPLICIT_MIDPOINT:
+  case SPORE_INTEGRATOR_BDF2:
+  case SPORE_INTEGRATOR_TR_BDF2:
+    return 2;
+  default:
+    return 1;
+  }
+}
+
+static int compare_numbers(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median(double *numbers, size_t count) {
+  if (count == 0) return NAN;
+  qsort(numbers, count, sizeof *numbers, compare_numbers);
+  return count % 2 ? numbers[count / 2] : 0.5 * (numbers[count / 2 - 1] + numbers[count / 2]);
+}
+
+/* Energy that moves about in the reference. */
+static double energy_at_work(const SporeTrial *reference) {
+  double low = HUGE_VAL, high = -HUGE_VAL, kinetic = 0;
+  for (size_t s = 0; s < reference->samples; s++) {
+    low = fmin(low, reference->energy[s]);
+    high = fmax(high, reference->energy[s]);
+    kinetic = fmax(kinetic, reference->kinetic[s]);
+  }
+  return high - low + kinetic;
+}
+
+static double energy_drift(const SporeTrial *trial, const SporeTrial *reference) {
+  double worst = 0, work = energy_at_work(reference);
+  if (!trial->finite || trial->samples != reference->samples) return HUGE_VAL;
+  for (size_t s = 0; s < trial->samples; s++) {
+    double own = trial->energy[s] - trial->energy[0], right = reference->energy[s] - reference->energy[0];
+    worst = fmax(worst, fabs(own - right));
+  }
+  return work > 0 ? worst / work : 0;
+}
+
+static void judge_point(SporeStudy *study, size_t i) {
+  SporeAccuracyPoint *point = &study->report->points[i];
+  const SporeTrial *trial = &study->trials[i];
+  SporeTrialDifference apart = spore_trial_difference(&study->points, &study->reference, trial);
+  double steps = fmax(1, (double)trial->steps);
+  point->error = study->report->statistics ? spore_study_mean_difference(study, &study->reference, trial) : apart.rms;
+  point->final = apart.final;
+  point->worst = apart.worst;
+  point->energy_drift = energy_drift(trial, &study->reference);
+  point->penetration = trial->penetration;
+  point->cost = median(study->costs + i * study->options->repeats, point->repeats);
+  point->us_per_step = 1e6 * point->cost * trial->dt_s;
+  point->p99_us = trial->p99_us;
+  point->real_time_factor = 1 / point->cost;
+  point->force_evaluations = trial->force_evaluations / steps;
+  point->newton = trial->newton / steps;
+  point->linear = trial->linear / steps;
+  point->stable = trial->stable;
+  point->as_written = trial->unsolved == 0;
+  point->resolved = point->stable && isfinite(point->error) && point->error >= study->report->floor;
+}
+
+static void find_pareto(SporeAccuracyReport *report) {
+  for (size_t i = 0; i < report->point_count; i++) {
+    SporeAccuracyPoint *point = &report->points[i];
+    point->pareto = point->resolved;
+    for (size_t k = 0; k < report->point_count && point->pareto; k++) {
+      const SporeAccuracyPoint *other = &report->points[k];
+      if (k == i || !other->resolved) continue;
+      bool nowhere_worse = other->error <= point->error && other->cost <= point->cost;
+      if (nowhere_worse && (other->error < point->error || other->cost < point->cost)) point->pareto = false;
+    }
+  }
+}
+
+/* Whether another method is much nearer at a step that is no smaller than the method's smallest. */
+static bool is_outdone(const SporeAccuracyReport *report, size_t method, int level) {
+  const SporeAccuracyPoint *own = NULL;
+  for (size_t i = 0; i < report->point_count; i++)
+    if (report->points[i].method == method && report->points[i].level == level) own = &report->points[i];
+  for (size_t i = 0; own && i < report->point_count; i++) {
+    const SporeAccuracyPoint *other = &report->points[i];
+    bool comparable = other->level == level && other->stable && other->dt_s >= own->dt_s;
+    if (comparable && other->error * WORSE < own->error) return true;
+  }
+  return false;
+}
+
+/* Slope of log error over log step, by least squares, at the level that the reference was run at. */
+static void fit_order(SporeAccuracyReport *report, size_t method, int level) {
+  SporeAccuracyFit *fit = &report->methods[method];
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (size_t i = 0; i < report->point_count; i++) {
+    const SporeAccuracyPoint *point = &report->points[i];
+    if (point->method != method || point->level != level || !point->resolved || point->error > LOST) continue;
+    double a = log(point->dt_s), b = log(point->error);
+    n++, x += a, y += b, xx += a * a, xy += a * b, yy += b * b;
+  }
+  fit->order = fit->order_spread = NAN;
+  fit->converges = true;
+  if (n < 3) return;
+  double spread = xx - x * x / n;
+  fit->order = (xy - x * y / n) / spread;
+  double rest = yy - y * y / n - fit->order * fit->order * spread;
+  fit->order_spread = sqrt(fmax(rest, 0) / (n - 2) / spread);
+  fit->converges = fit->order >= FLAT || !is_outdone(report, method, level);
+}
+
+/* The point of the scene's own method whose step is nearest to the scene's, or else the median of all by cost. */
+static const SporeAccuracyPoint *usual(const SporeStudy *study) {
+  const SporeAccuracyReport *report = study->report;
+  const SporeAccuracyPoint *best = NULL;
+  double nearest = HUGE_VAL;
+  for (int own = 1; own >= 0 && !best; own--)
+    for (size_t i = 0; i < report->point_count; i++) {
+      const SporeAccuracyPoint *point = &report->points[i];
+      const SporeAccuracyMethod *method = &report->methods[point->method].method;
+      if (own && method->integrator != study->scene->own.integrator) continue;
+      double off = fabs(log(point->dt_s / study->scene->dt_s));
+      if (off < nearest) nearest = off, best = point;
+    }
+  return best;
+}
+
+static const SporeAccuracyPoint *nearer(const SporeAccuracyReport *report, const SporeAccuracyPoint *than) {
+  const SporeAccuracyPoint *best = NULL;
+  for (size_t i = 0; i < report->point_count; i++) {
+    const SporeAccuracyPoint *point = &report->points[i];
+    if (!point->stable || !(point->cost <= SAME_COST * than->cost) || !(point->error * NEARER < than->error)) continue;
+    if (!best || point->error < best->error) best = point;
+  }
+  return best;
+}
+
+/* "tr_bdf2 at 8 ms" */
+static void name_point(const SporeAccuracyReport *report, const SporeAccuracyPoint *point, char *text, size_t size) {
+  snprintf(text, size, _("%s at %.3g ms"), report->methods[point->method].label, 1e3 * point->dt_s);
+}
+
+static void say_usual(const SporeAccuracyReport *report, const SporeAccuracyPoint *point, char *text, size_t size) {
+  char name[128];
+  name_point(report, point, name, sizeof name);
+  double step_ms = 1e-3 * point->us_per_step;
+  if (!point->stable) snprintf(text, size, _("%s: not stable, %.2g ms a step"), name, step_ms);
+  else if (point->resolved)
+    snprintf(text, size, _("%s: %.2g %% off, %.2g ms a step"), name, 100 * point->error, step_ms);
+  else
+    snprintf(text, size, _("%s: less than %.2g %% off, which is as far as can be told here, %.2g ms a step"), name,
+             100 * report->floor, step_ms);
+}
+
+static void say_better(const SporeAccuracyReport *report, const SporeAccuracyPoint *point, char *text, size_t size) {
+  char name[128];
+  const SporeAccuracyPoint *better = point->resolved || !point->stable ? nearer(report, point) : NULL;
+  if (better) name_point(report, better, name, sizeof name);
+  if (!better && point->resolved) snprintf(text, size, _("; nothing that was tried is nearer for the same time"));
+  else if (better && !point->stable) snprintf(text, size, _("; %s is, for the same time"), name);
+  else if (better && better->resolved)
+    snprintf(text, size, _("; %s is %.2g times closer for the same time"), name, point->error / better->error);
+  else if (better)
+    snprintf(text, size, _("; %s is at least %.2g times closer for the same time"), name, point->error / report->floor);
+  else *text = '\0';
+}
+
+static bool say(SporeStudy *study) {
+  char first[256] = "", second[256] = "", whole[512];
+  const SporeAccuracyPoint *point = usual(study);
+  if (point) {
+    say_usual(study->report, point, first, sizeof first);
+    say_better(study->report, point, second, sizeof second);
+  }
+  snprintf(whole, sizeof whole, "%s%s", first, second);
+  study->report->sentence = spore_copy_text(whole);
+  return study->report->sentence;
+}
+
+bool spore_study_judge(SporeStudy *study) {
+  SporeAccuracyReport *report = study->report;
+  int level = -1;
+  for (size_t i = 0; i < report->level_count; i++)
+    level = level > report->levels[i].level ? level : report->levels[i].level;
+  report->floor =
+      fmax(RESOLVED * report->reference.own_error, report->statistics ? SPREADS * report->spread : report->growth);
+  for (size_t i = 0; i < report->point_count; i++) judge_point(study, i);
+  find_pareto(report);
+  for (size_t m = 0; m < report->method_count; m++) fit_order(report, m, level);
+  return say(study);
+}

@@ -1,0 +1,69 @@
+/* What the files of the accuracy study share. */
+#ifndef SPORE_MEASURE_ACCURACY_PRIVATE_H
+#define SPORE_MEASURE_ACCURACY_PRIVATE_H
+
+#include "core/measure/accuracy.h"
+
+/* A study while it runs. */
+typedef struct SporeStudy {
+  const SporeAccuracyScene *scene;
+  const SporeAccuracyOptions *options;
+  SporeAccuracyReport *report;
+  SporeTrialPoints points;
+  SporeTrial *trials;    /* one a point of the report */
+  double *costs;         /* points x repeats: s on the processor for a simulated s */
+  SporeTrial reference;  /* the run that errors are measured from */
+  SporeTrial *perturbed; /* perturbed_count */
+  size_t perturbed_count;
+  double **q, **v; /* of each body at the start; NULL: the stretch begins at time 0 */
+  size_t body_count, samples;
+  size_t steps;     /* of each method */
+  double most_s;    /* on the processor, so that what else it does changes nothing */
+  double started_s; /* by spore_study_processor_s */
+  double until_s;   /* a single run ends there; 0: never */
+  double done;      /* for progress, 0..1 */
+  SporeError refusal; /* the last reason why the scene did not run by a method */
+  SporeError *error;
+} SporeStudy;
+
+/* Seconds that the program has had on the processor. */
+double spore_study_processor_s(void);
+/* The same since the study began. */
+double spore_study_elapsed_s(const SporeStudy *study);
+/* Adds a translated sentence to what was cut. */
+void spore_study_cut(SporeStudy *study, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* How a run differs from a plain one. */
+typedef struct SporeStudyRun {
+  double perturbation;
+  uint32_t seed;
+  bool timed_only;
+  double most_s; /* on the processor; 0: any */
+} SporeStudyRun;
+typedef enum SporeStudyOutcome {
+  SPORE_STUDY_RAN,
+  SPORE_STUDY_REFUSED,  /* the scene cannot run so; `why` says the reason */
+  SPORE_STUDY_TOO_LONG, /* it took longer than most_s */
+  SPORE_STUDY_ENDED     /* cancelled, or no memory: the study's error says so */
+} SporeStudyOutcome;
+/* Makes a world, puts it where the stretch begins, and runs it over the stretch. trial: spore_trial_clear. */
+SporeStudyOutcome spore_study_run(SporeStudy *study, const SporeAccuracyWorld *world, const SporeStudyRun *run,
+                                  SporeTrial *trial, SporeError *why);
+
+/* accuracy_window.c: finds where input brings contacts, and the state there. False: study->error. */
+bool spore_study_find_window(SporeStudy *study);
+void spore_study_forget_state(SporeStudy *study);
+/* Puts a world at the start of the stretch. */
+void spore_study_start(const SporeStudy *study, SporeWorld *world);
+
+/* accuracy_reference.c: runs the reference, the second method and the perturbed runs. False: study->error. */
+bool spore_study_refer(SporeStudy *study);
+/* Means over the stretch: how far the mean places of the bodies in two trials are apart, by the bodies' lengths. */
+double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b);
+
+/* accuracy_judge.c: errors of all points, orders, the Pareto set and the sentence. False: no memory. */
+bool spore_study_judge(SporeStudy *study);
+/* Order of a method where forces are smooth. */
+double spore_study_nominal_order(SporeIntegratorKind kind);
+
+#endif

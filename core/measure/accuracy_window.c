@@ -1,0 +1,121 @@
+/* Finds the stretch of input that the accuracy study runs: the first one with contacts in it. Where it begins later
+ * than at time 0, every run begins with the state that the scene has there by its own method. */
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/measure/accuracy_private.h"
+
+#define SEARCH_S 20.     /* simulated, at most */
+#define SEARCH_SHARE 0.1 /* of the time of the study */
+#define BEFORE_S 0.05    /* simulated, before the first contact */
+#define CHECKED 8        /* samples of a run that goes on, and of one that begins there */
+#define CARRIED 1e-3     /* of a body's length: how far the two may be apart */
+
+void spore_study_start(const SporeStudy *study, SporeWorld *world) {
+  for (uint32_t i = 0; study->q && i < study->body_count; i++)
+    spore_world_set_state(world, i, study->q[i], study->v[i]);
+}
+
+void spore_study_forget_state(SporeStudy *study) {
+  for (size_t i = 0; i < study->body_count; i++) {
+    if (study->q) spore_free(study->q[i]);
+    if (study->v) spore_free(study->v[i]);
+  }
+  spore_free(study->q);
+  spore_free(study->v);
+  study->q = study->v = NULL;
+}
+
+static double *copy(const double *numbers, size_t count) {
+  double *copied = SPORE_NEW_ARRAY(double, count);
+  if (copied) memcpy(copied, numbers, count * sizeof *copied);
+  return copied;
+}
+
+static bool keep_state(SporeStudy *study, const SporeWorld *world) {
+  study->q = SPORE_NEW_ARRAY(double *, study->body_count);
+  study->v = SPORE_NEW_ARRAY(double *, study->body_count);
+  bool good = study->q && study->v;
+  for (uint32_t i = 0; good && i < study->body_count; i++) {
+    const SporeModel *model = spore_world_body_model(world, i);
+    study->q[i] = copy(spore_world_q(world, i), model ? model->q_count : 7);
+    study->v[i] = copy(spore_world_v(world, i), model ? 3 * model->block_count : 6);
+    good = study->q[i] && study->v[i];
+  }
+  if (good) return true;
+  spore_study_forget_state(study);
+  return spore_error_set(study->error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the state of a run"));
+}
+
+/* Steps until something touches. Infinite: nothing does in the time that there is. */
+static double first_contact(SporeStudy *study, SporeWorld *world) {
+  double most_s = SEARCH_SHARE * study->most_s;
+  while (spore_world_time_s(world) < SEARCH_S && spore_study_elapsed_s(study) < most_s) {
+    spore_world_step(world);
+    if (spore_world_cancelled(world)) break;
+    spore_world_tidy(world);
+    if (spore_world_counts(world).contacts > 0) return spore_world_time_s(world);
+  }
+  return HUGE_VAL;
+}
+
+static SporeWorld *own_world(SporeStudy *study, double start_s, double dt_s) {
+  const SporeAccuracyWorld own = {.level = -1, .dt_s = dt_s, .start_s = start_s};
+  return study->scene->make(study->scene->data, &own, study->error);
+}
+
+/* Whether a run that begins with the state of `world` goes on as that world does. */
+static bool can_begin(SporeStudy *study, SporeWorld *world, double dt_s) {
+  SporeTrial on = {0}, anew = {0};
+  SporeTrialSettings settings = {.interval_s = study->report->interval_s, .samples = CHECKED, .dt_s = dt_s};
+  SporeWorld *other = own_world(study, study->report->start_s, dt_s);
+  if (!other) return false;
+  spore_study_start(study, other);
+  bool good = spore_trial_run(&on, world, &study->points, &settings, study->error) &&
+              spore_trial_run(&anew, other, &study->points, &settings, study->error);
+  good = good && spore_trial_difference(&study->points, &on, &anew).worst <= CARRIED;
+  study->scene->drop(study->scene->data, other);
+  spore_trial_clear(&on);
+  spore_trial_clear(&anew);
+  return good;
+}
+
+/* Begins the stretch shortly before a contact, if a run can begin there. */
+static bool begin_late(SporeStudy *study, SporeWorld *world, double contact_s, double dt_s) {
+  double steps = floor(fmax(contact_s - BEFORE_S, 0) / dt_s);
+  spore_world_reset(world);
+  for (double i = 0; i < steps && !spore_world_cancelled(world); i++) {
+    spore_world_step(world);
+    spore_world_tidy(world);
+  }
+  study->report->start_s = spore_world_time_s(world);
+  if (!keep_state(study, world)) return false;
+  if (can_begin(study, world, dt_s)) return true;
+  if (study->error && study->error->code != SPORE_ERROR_NONE) return false;
+  spore_study_forget_state(study);
+  spore_study_cut(
+      study,
+      _("contacts come after %.3g s of the input; the stretch begins at 0 s all the same, since the scene's "
+        "state there cannot be taken over (ask for more with --time)"),
+      contact_s);
+  study->report->start_s = 0;
+  return true;
+}
+
+bool spore_study_find_window(SporeStudy *study) {
+  double dt_s = spore_trial_step(study->report->interval_s, study->scene->dt_s);
+  SporeWorld *world = own_world(study, 0, dt_s);
+  if (!world) return false;
+  bool good = true;
+  double contact_s = first_contact(study, world);
+  if (spore_world_cancelled(world)) good = spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  else if (isinf(contact_s))
+    spore_study_cut(study, _("nothing touches in the first %.3g s of the input"), spore_world_time_s(world));
+  else if (contact_s > 0.5 * study->report->time_s && study->scene->starts_late)
+    good = begin_late(study, world, contact_s, dt_s);
+  study->scene->drop(study->scene->data, world);
+  return good;
+}

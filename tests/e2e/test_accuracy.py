@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+"""spore accuracy from end to end. test_accuracy.py SPORE."""
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import shapes
+from tap import check, main
+
+SPORE = os.path.abspath(sys.argv[1])
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-accuracy-"))
+SCENES = pathlib.Path(__file__).resolve().parent.parent.parent / "resources" / "scenes"
+MINIMAL = SCENES / "minimal.spore"
+# A ball on a spring: it swings between its place and twice m g / k below.
+SWING = """<?xml version="1.0" encoding="UTF-8"?>
+<spore version="1.0">
+  <environment gravity="0 -9.81 0"/>
+  <solver time_step="0.002" integrator="tr_bdf2" tolerance="1e-10"/>
+  <assets><mesh name="ball" file="ball.off"/></assets>
+  <bodies>
+    <body name="ball"><mechanical geometry="ball"><rigid_body mass="0.5"/></mechanical></body>
+    <body name="wall" role="unmovable"/>
+  </bodies>
+  <links><spring name="spring" body_a="ball" point_a="0 0 0" point_b="0 0.2 0" stiffness="200" damping="0" rest_length="0.2"/></links>
+</spore>
+"""
+FEW = ("--methods", "implicit_euler,tr_bdf2,rk4", "--dt", "0.001:0.008:4", "--time", "0.2", "--full")
+
+
+def spore(*arguments, status=0):
+    done = subprocess.run([SPORE, "accuracy", *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=WORK)
+    assert done.returncode == status, f"{arguments}: status {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+def refuses(*arguments, says, status=2):
+    """One line that holds every text of `says`; nothing is written."""
+    before = sorted(WORK.iterdir())
+    done = spore(*arguments, status=status)
+    assert len(done.stderr.splitlines()) == 1 and not done.stdout, done
+    for text in says:
+        assert text in done.stderr, f"'{text}' is not in: {done.stderr}"
+    assert sorted(WORK.iterdir()) == before
+
+
+def swing(name="swing.spore", replace=("", "")):
+    content = shapes.off(*shapes.sphere(0.02))
+    (WORK / "ball.off").write_bytes(content if isinstance(content, bytes) else content.encode())
+    path = WORK / name
+    path.write_text(SWING.replace(*replace))
+    return path
+
+
+def points_of(report, method):
+    return [point for point in report["points"] if point["method"] == method]
+
+
+@check
+def report_holds_what_the_contract_says():
+    """Members, the Pareto set, the files: all say the same."""
+    files = ("--csv", "a.csv", "--svg", "a.svg", "--html", "a.html")
+    done = spore(swing(), *FEW, "--json", *files)
+    report = json.loads(done.stdout)
+    assert {"method", "dt_s", "own_error"} <= set(report["reference"])
+    members = {"method", "dt_s", "level", "error", "energy_drift", "penetration", "us_per_step", "real_time_factor", "stable"}
+    assert len(report["points"]) == 12 and all(members <= set(point) for point in report["points"])
+    pareto = [report["points"][i] for i in report["pareto"]]
+    assert pareto and all(point["pareto"] and point["stable"] for point in pareto)
+    assert all(a["error"] > b["error"] and a["cpu_s"] < b["cpu_s"] for a, b in zip(pareto, pareto[1:])), pareto
+    assert report["sentence"].startswith("tr_bdf2 at 2 ms: ") and report["sentence"] in (WORK / "a.html").read_text()
+    with open(WORK / "a.csv", newline="") as opened:
+        rows = list(csv.DictReader(opened))
+    for row, point in zip(rows, report["points"], strict=True):
+        assert row["method"] == point["method"] and math.isclose(float(row["error"]), point["error"], rel_tol=1e-9)
+    drawn = xml.etree.ElementTree.parse(WORK / "a.svg")
+    assert "rk4" in "".join(drawn.getroot().itertext())
+    page = (WORK / "a.html").read_text()
+    assert "<svg" in page and not re.search(r'(src|href)="', page) and page.count("<tr") == 13
+
+
+@check
+def plots_are_pictures_where_that_can_be():
+    """PNG of at least the size of the plot, or a refusal before any work."""
+    done = subprocess.run([SPORE, "accuracy", swing(), *FEW, "--png", "a.png"], capture_output=True, text=True, cwd=WORK)
+    if done.returncode == 0:
+        content = (WORK / "a.png").read_bytes()
+        assert content.startswith(b"\x89PNG") and int.from_bytes(content[16:20], "big") >= 960
+    else:
+        assert done.returncode == 2 and done.stderr.startswith("--png: ") and "--svg" in done.stderr and not (WORK / "a.png").exists(), done
+
+
+@check
+def errors_are_those_of_the_swing():
+    """A ball on a spring swings by a cosine: what is said of each point of implicit Euler follows from that."""
+    report = json.loads(spore(swing(), *FEW, "--json").stdout)
+    orders = {method["name"]: method["order"] for method in report["methods"]}
+    assert abs(orders["implicit_euler"] - 1) < 0.2 and abs(orders["tr_bdf2"] - 2) < 0.3, orders
+    assert report["reference"]["agreed"] and not report["resolution"]["chaotic"]
+    # implicit Euler damps and slows the swing: its error follows from the roots of its step, 1 / (1 -+ i h w)
+    w, g_w2 = math.sqrt(200 / 0.5), 9.81 * 0.5 / 200
+    length = 2 * math.sqrt(3) * 0.02 * math.sqrt(1 / 5) # box around the points at the radii of gyration of a ball
+    for point in points_of(report, "implicit_euler"):
+        h, squares = point["dt_s"], []
+        for k in range(1, 26):
+            n, t = round(0.008 * k / h), 0.008 * k
+            factor, angle = (1 + (h * w) ** 2) ** (-n / 2), n * math.atan(h * w)
+            squares.append((g_w2 * (factor * math.cos(angle) - math.cos(w * t))) ** 2)
+        expected = math.sqrt(sum(squares) / len(squares)) / length
+        assert math.isclose(point["error"], expected, rel_tol=0.05), (h, point["error"], expected)
+
+
+@check
+def solvers_are_an_axis():
+    report = json.loads(spore(swing(), "--methods", "implicit_euler,tr_bdf2/newton,rk4", "--nonlinear", "newton,broyden", "--dt", "0.002:0.008:3", "--time", "0.05", "--json").stdout)
+    assert [method["name"] for method in report["methods"]] == ["implicit_euler/newton", "implicit_euler/broyden", "tr_bdf2/newton", "rk4"]
+
+
+@check
+def people_get_a_table():
+    text = spore(swing(), *FEW).stdout
+    for said in ("reference: ", "comes to the same within", "order of implicit_euler: ", "Pareto", "tr_bdf2 at 2 ms: "):
+        assert said in text, text
+    assert spore(swing(), *FEW, "--quiet").stdout == ""
+    assert "own_error" in spore("--help").stdout
+
+
+@check
+def bad_wishes_are_refused():
+    scene = swing()
+    refuses(scene, "--methods", "nope", says=["--methods", "nope", "implicit_euler"])
+    refuses(scene, "--methods", "tr_bdf2/nope", says=["--methods", "nope", "broyden"])
+    refuses(scene, "--linear", "nope", says=["--linear", "nope"])
+    for wrong in ("0.1", "0.01:0.001:5", "0:0.01:5", "0.001:0.01:2", "0.001:1:5", "0.001:0.01:2.5", "a:b:c"):
+        refuses(scene, "--dt", wrong, says=["--dt", wrong, "LO:HI:N"])
+    refuses(scene, "--time", "0", says=["--time"])
+    refuses(scene, "--body", "liver", says=["--body", "liver", "ball"])
+    refuses(scene, "--body", "wall", says=["--body", "wall", "passive"])
+    refuses(scene, "--levels", "coarse", says=["--levels", "levels"])
+    refuses(scene, "--levels", "nope", says=["--levels", "nope"])
+    refuses(scene, "--svg", "nowhere/a.svg", says=["nowhere"])
+    before = scene.read_bytes()
+    refuses(scene, "--csv", scene.name, says=[scene.name, "input"])
+    assert scene.read_bytes() == before
+
+
+@check
+def scenes_that_cannot_run_are_refused():
+    refuses("missing.spore", "--csv", "never.csv", says=["missing.spore"])
+    still = swing("still.spore", ('<rigid_body mass="0.5"/>', ""))
+    refuses(still, "--csv", "never.csv", says=["still.spore", "model"])
+
+
+@check
+def a_reference_that_does_not_converge_is_said():
+    """A ball that bounces off spheres, in steps far too large: no figures, no file, status 1."""
+    refuses(MINIMAL, "--dt", "0.02:0.1:3", "--methods", "implicit_euler", "--csv", "never.csv", says=["no reference converges", "--time"], status=1)
+
+
+@check
+def interruption_leaves_no_part():
+    (WORK / "kept.csv").write_text("old numbers\n")
+    arguments = [SPORE, "accuracy", SCENES / "table1-deformable.spore", "--full", "--csv", "kept.csv", "--html", "kept.html"]
+    process = subprocess.Popen(arguments, cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    caught = 0
+    while process.poll() is None and not caught >> (signal.SIGTERM - 1) & 1: # until it is caught
+        caught = int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16)
+    process.send_signal(signal.SIGTERM)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 130 and not out, (process.returncode, out)
+    assert (WORK / "kept.csv").read_text() == "old numbers\n" and not (WORK / "kept.html").exists()
+
+
+if __name__ == "__main__":
+    main()
