@@ -12,6 +12,7 @@
 #include "core/sim/world_private.h"
 
 #define ITERATIONS 500
+#define SURE 0.98 /* of a limit that the iteration finds: its eigenvalue is a lower bound */
 
 typedef struct Power {
   SporeBlockMatrix matrix;
@@ -100,12 +101,20 @@ static void clear(Power *power) {
   spore_free(power->z);
 }
 
-/* Root of w^2 h^2 + b d h = a - 1. */
-static double stable_step(const SporeIntegrator *integrator, double square, double damping) {
-  assert(integrator->stable_square > 1);
-  double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
+/* Root of w^2 h^2 + b d h = a - reserve. */
+static double stable_step(const SporeIntegrator *integrator, double square, double damping, double reserve) {
+  assert(integrator->stable_square > reserve);
+  double a = integrator->stable_square - reserve, b = integrator->stable_damping * damping;
   if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
   return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
+}
+
+/* The steps by frequency and damping; 0 where the integrator has no such rule. */
+static void set_steps(SporeStepLimit *limit, const SporeIntegrator *integrator) {
+  double square = limit->frequency * limit->frequency;
+  bool ruled = integrator->stable_square > 0;
+  limit->dt_s = ruled ? SURE * stable_step(integrator, square, limit->damping, 1) : 0;
+  limit->whole_dt_s = ruled ? stable_step(integrator, square, limit->damping, 0) : 0;
 }
 
 /* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
@@ -138,12 +147,11 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   assert(model && limit);
   assert(held_count == 0 || held);
-  *limit = (SporeStepLimit){0, 0, HUGE_VAL};
+  *limit = (SporeStepLimit){0, 0, HUGE_VAL, HUGE_VAL};
   const SporeIntegrator *integrator = spore_integrator(kind);
   if (model->type->rates) {
     model->type->rates(model, &limit->frequency, &limit->damping);
-    double square = limit->frequency * limit->frequency;
-    limit->dt_s = integrator->stable_square > 0 ? 0.98 * stable_step(integrator, square, limit->damping) : 0;
+    set_steps(limit, integrator);
     return true;
   }
   if (!model->type->jacobian) return true;
@@ -159,8 +167,11 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
     limit->damping = largest_eigenvalue(&power);
     limit->frequency = sqrt(square);
-    limit->dt_s = 0.98 * (integrator->stable_square > 0 ? stable_step(integrator, square, limit->damping)
-                                                        : explicit_euler_step(&power, model, q, v, limit));
+    set_steps(limit, integrator);
+    if (integrator->stable_square == 0) {
+      limit->whole_dt_s = explicit_euler_step(&power, model, q, v, limit);
+      limit->dt_s = SURE * limit->whole_dt_s;
+    }
   }
   clear(&power);
   return true;
