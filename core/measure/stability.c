@@ -11,12 +11,14 @@
 #include "core/base/text.h"
 #include "core/measure/stability_private.h"
 
-#define QUICK_STEPS 100
+#define QUICK_STEPS 100 /* of a trial */
 #define QUICK_CUTS 6
 #define CUTS 9
 #define LIMIT_STEPS 300      /* of a trial, where time is given */
 #define CELL_STEPS 100       /* of a cell of the map */
 #define WORK_OF_A_CASE 2.5e6 /* steps times degrees of freedom */
+#define WORK_OF_A_QUICK_CASE 2.5e5
+#define LEAST_STEPS 100 /* of a case */
 #define USUAL_TIME_S 1.
 #define LARGEST_STEP_S 0.1 /* that a scene may have */
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
@@ -325,9 +327,8 @@ static bool allocate(SporeStabilityReport *report, const SporeWorld *world) {
 /* Steps of a case: the time that was asked for; else a second, and no more work than a case may be. */
 static size_t choose_steps(const SporeStabilityOptions *options, const SporeWorld *world, double step_s) {
   if (options->time_s > 0) return (size_t)fmax(ceil(options->time_s / step_s - 1e-9), 1);
-  if (options->quick) return QUICK_STEPS;
-  double most = WORK_OF_A_CASE / fmax((double)spore_world_dof(world), 1);
-  return (size_t)fmax(fmin(ceil(USUAL_TIME_S / step_s), most), QUICK_STEPS);
+  double most = (options->quick ? WORK_OF_A_QUICK_CASE : WORK_OF_A_CASE) / fmax((double)spore_world_dof(world), 1);
+  return (size_t)fmax(fmin(ceil(USUAL_TIME_S / step_s), most), LEAST_STEPS);
 }
 
 /* False: cancelled, no memory, or the scene cannot run. */

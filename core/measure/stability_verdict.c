@@ -118,13 +118,11 @@ SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush 
     add(&detail, _("%s: energy %.2g %% above start and work: take a smaller time_step or a method that damps"),
         name_of(world, run->fastest), 100 * run->gain);
   SporeStabilityVerdict verdict = detail.reasons > 0 ? SPORE_STABILITY_FAILED : SPORE_STABILITY_RECOVERED;
-  if (verdict == SPORE_STABILITY_RECOVERED) {
-    add_entries(&detail, world, push, run->steps, false);
-    add_mended(&detail, monitor);
-    if (detail.reasons == 0) {
-      verdict = SPORE_STABILITY_STABLE;
-      add_stable(&detail, monitor, run);
-    }
+  add_entries(&detail, world, push, run->steps, false);
+  add_mended(&detail, monitor);
+  if (detail.reasons == 0) {
+    verdict = SPORE_STABILITY_STABLE;
+    add_stable(&detail, monitor, run);
   }
   end(&detail);
   return verdict;

@@ -4,7 +4,7 @@
 #include <assert.h>
 #include <math.h>
 
-#define FALLS 6 /* steps below the range, each half of the one before, where no step of the range was safe */
+#define DOUBLINGS 6 /* up or down, until there is a safe step and one that is not */
 
 typedef struct Search {
   SporeStepFound found;
@@ -25,8 +25,23 @@ static bool try_step(Search *search, double step_s) {
   return safe;
 }
 
-static void cut(Search *search, double low, double high, size_t cuts) {
-  assert(low > 0 && high >= low);
+/* Steps twice as large each, until one is not safe. */
+static void rise(Search *search, double step_s, double largest_s) {
+  for (int i = 0; i < DOUBLINGS && step_s < largest_s; i++) {
+    step_s = fmin(2 * step_s, largest_s);
+    if (!try_step(search, step_s)) return;
+  }
+}
+
+/* Steps half as large each, until one is safe. */
+static void fall(Search *search, double step_s) {
+  for (int i = 0; i < DOUBLINGS && !search->ended; i++)
+    if (try_step(search, step_s *= 0.5)) return;
+}
+
+static void cut(Search *search, size_t cuts) {
+  if (search->found.safe_s == 0 || isinf(search->found.unsafe_s)) return;
+  double low = search->found.safe_s, high = search->found.unsafe_s;
   for (size_t i = 0; i < cuts && !search->ended; i++) {
     double middle = sqrt(low * high);
     if (try_step(search, middle)) low = middle;
@@ -37,11 +52,12 @@ static void cut(Search *search, double low, double high, size_t cuts) {
 SporeStepFound spore_step_search(const SporeStepSearch *search, int (*is_safe)(void *data, double step_s), void *data) {
   assert(search->usual_s > 0 && search->largest_s >= search->usual_s && is_safe);
   Search state = {.found = {.unsafe_s = HUGE_VAL}, .is_safe = is_safe, .data = data};
-  double largest = search->largest_s, predicted = search->predicted_s;
-  bool bounded = predicted > 0 && predicted < largest;
-  double low = bounded ? 0.5 * predicted : search->usual_s, high = bounded ? fmin(2 * predicted, largest) : largest;
-  if (predicted > 0 && !bounded && try_step(&state, largest)) return state.found;
-  if (predicted > 0) cut(&state, low, high, search->cuts);
-  for (int i = 0; i < FALLS && state.found.safe_s == 0 && !state.ended; i++, low *= 0.5) try_step(&state, low);
+  double largest = search->largest_s, first = search->predicted_s > 0 ? search->predicted_s : search->usual_s;
+  /* Where all steps are expected to be safe, the largest one shows that at once. */
+  if (first >= largest && try_step(&state, largest)) return state.found;
+  if (first >= largest) first = search->usual_s;
+  if (try_step(&state, first)) rise(&state, first, largest);
+  else fall(&state, first);
+  cut(&state, search->cuts);
   return state.found;
 }
