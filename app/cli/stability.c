@@ -9,6 +9,8 @@
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 
+#define SHORT_DETAIL 70  /* characters */
+#define DETAIL_INDENT 13 /* of a longer one */
 #define MOST_S 240.
 #define MOST_QUICK_S 18. /* the scene is read before that, and the last step ends after it */
 
@@ -17,6 +19,15 @@ typedef struct StabilityOptions {
   char *svg, *time, *seconds;
   SporeSceneOptions scene;
 } StabilityOptions;
+
+/* A long detail gets a line of its own. */
+static void say_case(SporeCli *cli, const SporeStabilityCase *each, int width) {
+  const char *label = _(each->label), *verdict = _(spore_stability_verdicts[each->verdict]);
+  int blanks = width - (int)g_utf8_strlen(label, -1);
+  if (g_utf8_strlen(each->detail, -1) <= SHORT_DETAIL)
+    spore_cli_say(cli, "%-9s  %s%*s  %s\n", verdict, label, blanks, "", each->detail);
+  else spore_cli_say(cli, "%-9s  %s\n%*s%s\n", verdict, label, DETAIL_INDENT, "", each->detail);
+}
 
 static void report_cases(SporeCli *cli, const SporeStabilityReport *report) {
   int width = 0;
@@ -29,9 +40,7 @@ static void report_cases(SporeCli *cli, const SporeStabilityReport *report) {
     spore_cli_text(cli, "verdict", spore_stability_verdicts[each->verdict]);
     spore_cli_text(cli, "detail", each->detail);
     spore_cli_close(cli);
-    int label = (int)g_utf8_strlen(_(each->label), -1);
-    spore_cli_say(cli, "%-9s  %s%*s  %s\n", _(spore_stability_verdicts[each->verdict]), _(each->label), width - label,
-                  "", each->detail);
+    say_case(cli, each, width);
   }
   spore_cli_close_array(cli);
 }
@@ -50,9 +59,11 @@ static const char *outcome_text(SporeMethodOutcome outcome) {
 static void say_limit(SporeCli *cli, const SporeStabilityLimit *limit, int width) {
   g_autofree char *predicted = step_text(limit->predicted_s), *safe = step_text(limit->found.safe_s),
                   *own = step_text(limit->step_s), *unsafe = step_text(limit->found.unsafe_s);
-  g_autofree char *beyond = isinf(limit->found.unsafe_s)
-                                ? g_strdup(_("larger ones were not tried"))
-                                : g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe);
+  g_autofree char *beyond =
+      isinf(limit->found.unsafe_s)
+          ? g_strdup(limit->found.safe_s >= SPORE_STABILITY_LARGEST_STEP_S ? _("no scene may have a larger one")
+                                                                           : _("larger ones were not tried"))
+          : g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe);
   const char *note = !limit->own                              ? ""
                      : limit->step_s <= limit->found.safe_s   ? _("; the scene's")
                      : limit->step_s >= limit->found.unsafe_s ? _("; the scene's, and its step is too large")
@@ -110,8 +121,11 @@ static void report_left_out(SporeCli *cli, const SporeStabilityReport *report) {
   spore_cli_open_array(cli, "left_out");
   if (report->left_out_count > 0) spore_cli_say(cli, _("\nLeft out\n"));
   for (gsize i = 0; i < report->left_out_count; i++) {
-    spore_cli_text(cli, NULL, report->left_out[i]);
-    spore_cli_say(cli, "  %s\n", report->left_out[i]);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "what", report->left_out[i].what);
+    spore_cli_text(cli, "why", report->left_out[i].why);
+    spore_cli_close(cli);
+    spore_cli_say(cli, "  %s: %s\n", report->left_out[i].why, report->left_out[i].what);
   }
   spore_cli_close_array(cli);
 }
@@ -129,8 +143,8 @@ static int report(SporeCli *cli, const char *scene, const SporeStabilityReport *
   spore_cli_say(cli, _("\n%zu cases of %zu steps of %.3g ms: %zu stable, %zu recovered, %zu failed\n"),
                 study->case_count, study->steps, 1e3 * study->time_step_s, stable, study->case_count - stable - failed,
                 failed);
-  if (study->contacts == 0)
-    spore_cli_say(cli, _("nothing touched anything in the scene as written; a longer --time may say more\n"));
+  if (study->instruments && !study->met)
+    spore_cli_say(cli, _("no instrument met anything in the scene as written; a longer --time may say more\n"));
   return failed > 0 ? SPORE_EXIT_NOT_HELD : SPORE_EXIT_DONE;
 }
 

@@ -3,7 +3,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,11 +19,13 @@
 #define WORK_OF_A_QUICK_CASE 2.5e5
 #define LEAST_STEPS 100 /* of a case */
 #define USUAL_TIME_S 1.
-#define LARGEST_STEP_S 0.1 /* that a scene may have */
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
 #define UNTIL_LIMITS 0.4
 #define UNTIL_CASES 0.8
-#define LEFT_OUT_MOST 64
+#define LEFT_OUT_MOST 16
+/* Times the steps of a case, until an instrument meets something. */
+#define LONGER 4
+#define LONGER_QUICK 3
 
 typedef struct Study {
   const SporeStabilityScene *scene;
@@ -52,18 +53,19 @@ static uint64_t clock_at(const Study *study, double part) {
 
 static bool is_late(const Study *study, double part) { return spore_clock_ns() > clock_at(study, part); }
 
-/* Notes what is left out, and why. */
-static void leave_out(Study *study, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void leave_out(Study *study, const char *format, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
+/* Notes what is left out, and why. Things that are left out for one reason share a line. */
+static void leave_out(Study *study, const char *why, const char *what) {
   SporeStabilityReport *report = study->report;
-  if (report->left_out_count == LEFT_OUT_MOST) return;
-  char *copy = spore_copy_text(text);
-  if (copy) report->left_out[report->left_out_count++] = copy;
+  SporeStabilityLeftOut *line = NULL;
+  for (size_t i = 0; i < report->left_out_count; i++)
+    if (strcmp(report->left_out[i].why, why) == 0) line = &report->left_out[i];
+  if (!line) {
+    if (report->left_out_count == LEFT_OUT_MOST) return;
+    line = &report->left_out[report->left_out_count++];
+    snprintf(line->why, sizeof line->why, "%s", why);
+  }
+  size_t used = strlen(line->what);
+  snprintf(line->what + used, sizeof line->what - used, "%s%s", used > 0 ? ", " : "", what);
 }
 
 /* Cases. */
@@ -80,26 +82,34 @@ static const char *impossible(const SporeWorld *world, const SporePush *push) {
   return NULL;
 }
 
-/* Steps of a case, so that it takes as long as the scene's `steps`, between half and twice as many. */
-static size_t steps_of(const Study *study, const SporePush *push) {
-  double steps = (double)study->report->steps / push->change.time_step;
-  return (size_t)fmin(fmax(steps, 0.5 * (double)study->report->steps), 2 * (double)study->report->steps);
+/* Steps of a case, so that it takes as long as the scene's `steps`, between half and twice as many. The scene as it is
+ * goes on until an instrument meets something, and so do all cases after that. */
+static SporePushLength length_of(const Study *study, const SporePush *push) {
+  size_t own = study->report->steps;
+  double steps = fmin(fmax((double)own / push->change.time_step, 0.5 * (double)own), 2 * (double)own);
+  bool first = push == &spore_pushes[0] && study->options->time_s == 0;
+  return (SporePushLength){.steps = (size_t)steps,
+                           .most = first ? (study->options->quick ? LONGER_QUICK : LONGER) * own : 0,
+                           .until_ns = clock_at(study, UNTIL_CASES)};
 }
 
 /* Runs the case in the world. False: cancelled, or no memory. */
 static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
-  SporeStabilityCase *into = &study->report->cases[study->report->case_count];
+  SporeStabilityReport *report = study->report;
+  SporeStabilityCase *into = &report->cases[report->case_count];
   SporePushRun run;
-  if (!spore_push_run(study->scene, world, push, steps_of(study, push), clock_at(study, UNTIL_CASES), &run))
-    return no_memory(study->error);
+  if (!spore_push_run(study->scene, world, push, length_of(study, push), &run)) return no_memory(study->error);
   if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
   if (run.out_of_time) {
-    leave_out(study, _("case \"%s\": no time; give it more by --seconds"), _(push->label));
+    leave_out(study, _("no time; give it more by --seconds"), _(push->label));
     return true;
   }
   *into = (SporeStabilityCase){.name = push->name, .label = push->label};
   into->verdict = spore_push_judge(world, push, &run, into->detail, sizeof into->detail);
-  if (study->report->case_count++ == 0) study->report->contacts = run.contacts;
+  if (report->case_count++ > 0) return true;
+  report->contacts = run.contacts;
+  report->met = run.met_at > 0;
+  if (report->met) report->steps = run.steps;
   return true;
 }
 
@@ -124,15 +134,15 @@ static bool same_world(const SporeStabilityChange *change) {
 static bool try_case(Study *study, SporeWorld *world, const SporePush *push) {
   const char *why = impossible(world, push);
   if (why) {
-    leave_out(study, _("case \"%s\": %s"), _(push->label), why);
+    leave_out(study, why, _(push->label));
     return true;
   }
   if (study->options->quick && !push->quick) {
-    leave_out(study, _("case \"%s\": not with --quick"), _(push->label));
+    leave_out(study, _("not with --quick"), _(push->label));
     return true;
   }
   if (is_late(study, UNTIL_CASES)) {
-    leave_out(study, _("case \"%s\": no time; give it more by --seconds"), _(push->label));
+    leave_out(study, _("no time; give it more by --seconds"), _(push->label));
     return true;
   }
   if (same_world(&push->change)) {
@@ -193,7 +203,7 @@ static int is_safe(void *data, double step_s) {
 /* A step that is tried where nothing is predicted: a tenth of what the fastest mode takes for 1 rad, or the scene's. */
 static double usual_step(const SporeStepLimit *limit, double step_s) {
   double usual = limit->whole_dt_s == 0 && limit->frequency > 0 ? 0.1 / limit->frequency : step_s;
-  return fmin(fmax(usual, 1e-9), LARGEST_STEP_S);
+  return fmin(fmax(usual, 1e-9), SPORE_STABILITY_LARGEST_STEP_S);
 }
 
 static SporeIntegratorKind kind_of(const char *name) {
@@ -209,8 +219,9 @@ static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeInte
   const char *name = spore_world_body_name(world, body);
   bool quick = study->options->quick, own = kind == kind_of(method->integrator.name);
   if (is_late(study, UNTIL_LIMITS)) {
-    leave_out(study, _("largest step of %s by %s: no time; give it more by --seconds"), name,
-              spore_integrator_names[kind]);
+    char what[200];
+    snprintf(what, sizeof what, _("largest step of %s by %s"), name, spore_integrator_names[kind]);
+    leave_out(study, _("no time; give it more by --seconds"), what);
     return true;
   }
   SporeStabilityLimit *limit = &report->limits[report->limit_count];
@@ -228,7 +239,7 @@ static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeInte
   LimitSearch search = {.study = study, .world = world, .body = body, .limit = limit};
   limit->found = spore_step_search(&(SporeStepSearch){.predicted_s = limit->predicted_s,
                                                       .usual_s = usual_step(&predicted, limit->step_s),
-                                                      .largest_s = LARGEST_STEP_S,
+                                                      .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
                                                       .cuts = quick ? QUICK_CUTS : CUTS},
                                    is_safe, &search);
   return !search.failed;
@@ -236,10 +247,10 @@ static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeInte
 
 /* The body by its own method, or also by all others that take steps in time. */
 static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, const SporeMethod *method) {
-  const char *name = spore_world_body_name(world, body);
   SporeIntegratorKind own = kind_of(method->integrator.name);
-  if (own == SPORE_INTEGRATOR_STATIC)
-    leave_out(study, _("largest step of %s by static: a balance takes no step in time"), name);
+  char what[200];
+  snprintf(what, sizeof what, _("largest step of %s"), spore_world_body_name(world, body));
+  if (own == SPORE_INTEGRATOR_STATIC) leave_out(study, _("static finds a balance, and takes no step in time"), what);
   else if (!find_limit(study, world, body, own, method)) return false;
   if (study->options->quick) return true;
   for (int kind = 0; kind < SPORE_INTEGRATOR_STATIC; kind++)
@@ -249,7 +260,7 @@ static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, const
 
 static bool find_limits(Study *study, SporeWorld *world) {
   if (study->options->quick)
-    leave_out(study, _("largest steps by other methods than each body's own: not with --quick"));
+    leave_out(study, _("not with --quick"), _("largest steps by other methods than each body's own"));
   for (uint32_t body = 0; body < spore_world_body_count(world); body++) {
     SporeMethod method;
     if (!spore_world_body_method(world, body, &method)) continue;
@@ -265,8 +276,8 @@ static SporeStabilityMap empty_map(const Study *study) {
   SporeStabilityMap map = {
       .columns = quick ? 5 : SPORE_STABILITY_COLUMNS, .rows = quick ? 3 : SPORE_STABILITY_ROWS, .steps = CELL_STEPS};
   for (size_t c = 0; c < map.columns; c++)
-    map.time_step_s[c] =
-        fmin(study->report->time_step_s * pow(quick ? 4 : 2, (double)c - (double)(map.columns / 2)), LARGEST_STEP_S);
+    map.time_step_s[c] = fmin(study->report->time_step_s * pow(quick ? 4 : 2, (double)c - (double)(map.columns / 2)),
+                              SPORE_STABILITY_LARGEST_STEP_S);
   for (size_t r = 0; r < map.rows; r++) map.stiffness[r] = pow(100, (double)r - (double)(map.rows / 2));
   while (map.columns > 1 && map.time_step_s[map.columns - 1] == map.time_step_s[map.columns - 2]) map.columns--;
   return map;
@@ -286,7 +297,8 @@ static bool fill_cell(Study *study, SporeStabilityMap *map, size_t row, size_t c
     map->cells[row][column] = SPORE_STABILITY_REFUSED;
     return refused;
   }
-  bool done = spore_push_run(study->scene, world, &spore_pushes[0], map->steps, clock_at(study, 1), &run);
+  bool done = spore_push_run(study->scene, world, &spore_pushes[0],
+                             (SporePushLength){.steps = map->steps, .until_ns = clock_at(study, 1)}, &run);
   if (!done) no_memory(study->error);
   map->known[row][column] = !run.out_of_time;
   map->cells[row][column] = spore_push_judge(world, &spore_pushes[0], &run, detail, sizeof detail);
@@ -300,7 +312,7 @@ static bool make_map(Study *study) {
   SporeStabilityMap *map = &study->report->map;
   size_t left = 0;
   if (!study->options->map) {
-    leave_out(study, _("map of steps and stiffnesses: asked for by --svg"));
+    leave_out(study, _("ask for it by --svg"), _("map of steps and stiffnesses"));
     return true;
   }
   *map = empty_map(study);
@@ -311,7 +323,9 @@ static bool make_map(Study *study) {
       else if (!go_on(study, 0.3, _("the map")) || !fill_cell(study, map, row, column)) return false;
     }
   }
-  if (left > 0) leave_out(study, _("%zu cells of the map: no time; give it more by --seconds"), left);
+  char what[100];
+  snprintf(what, sizeof what, _("%zu cells of the map"), left);
+  if (left > 0) leave_out(study, _("no time; give it more by --seconds"), what);
   return true;
 }
 
@@ -320,7 +334,7 @@ static bool make_map(Study *study) {
 static bool allocate(SporeStabilityReport *report, const SporeWorld *world) {
   report->cases = SPORE_NEW_ARRAY(SporeStabilityCase, spore_push_count);
   report->limits = SPORE_NEW_ARRAY(SporeStabilityLimit, spore_world_body_count(world) * SPORE_INTEGRATOR_COUNT);
-  report->left_out = SPORE_NEW_ARRAY(char *, LEFT_OUT_MOST);
+  report->left_out = SPORE_NEW_ARRAY(SporeStabilityLeftOut, LEFT_OUT_MOST);
   return report->cases && report->limits && report->left_out;
 }
 
@@ -336,6 +350,7 @@ static bool run_study(Study *study, SporeWorld **world) {
   SporeStabilityReport *report = study->report;
   report->time_step_s = study->scene->time_step_s;
   report->steps = choose_steps(study->options, *world, report->time_step_s);
+  report->instruments = spore_input_is_possible(*world);
   study->all = (double)(spore_push_count + spore_world_body_count(*world)) +
                (study->options->map ? 0.3 * SPORE_STABILITY_COLUMNS * SPORE_STABILITY_ROWS : 0);
   return go_on(study, 0, _(spore_pushes[0].label)) && try_case(study, *world, &spore_pushes[0]) &&
@@ -361,7 +376,6 @@ SporeStabilityReport *spore_stability_study(const SporeStabilityScene *scene, co
 void spore_stability_report_free(SporeStabilityReport *report) {
   if (!report) return;
   for (size_t i = 0; i < report->limit_count; i++) spore_free(report->limits[i].body);
-  for (size_t i = 0; i < report->left_out_count; i++) spore_free(report->left_out[i]);
   spore_free(report->cases);
   spore_free(report->limits);
   spore_free(report->left_out);

@@ -67,6 +67,7 @@ typedef struct SporeStabilityLimit {
 
 #define SPORE_STABILITY_COLUMNS 7
 #define SPORE_STABILITY_ROWS 5
+#define SPORE_STABILITY_LARGEST_STEP_S 0.1 /* that a scene may have: none above it is tried */
 /* Verdicts of the scene by step and stiffness. */
 typedef struct SporeStabilityMap {
   size_t columns, rows, steps; /* steps: taken in each cell; 0 columns: there is no map */
@@ -75,14 +76,21 @@ typedef struct SporeStabilityMap {
   bool known[SPORE_STABILITY_ROWS][SPORE_STABILITY_COLUMNS]; /* false: left out */
 } SporeStabilityMap;
 
+/* Things that were not tried, for one reason. */
+typedef struct SporeStabilityLeftOut {
+  char what[1500], why[200]; /* translated; things apart by commas */
+} SporeStabilityLeftOut;
+
 typedef struct SporeStabilityReport {
   double time_step_s; /* of the scene */
   size_t steps;       /* of a case, in steps of the scene */
   size_t contacts;    /* most at once, in the case where nothing is changed */
+  bool instruments;   /* the scene has some that a device may move */
+  bool met;           /* in that case an instrument felt a force */
   size_t case_count, limit_count, left_out_count;
   SporeStabilityCase *cases;
   SporeStabilityLimit *limits;
-  char **left_out; /* translated sentences */
+  SporeStabilityLeftOut *left_out;
   SporeStabilityMap map;
 } SporeStabilityReport;
 

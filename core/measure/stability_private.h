@@ -36,7 +36,7 @@ typedef enum SporePushJump {
 typedef struct SporePush {
   const char *name, *label; /* label: translatable */
   bool quick;               /* also run where little time is given */
-  bool deep;                /* bodies are deep in each other by the case itself */
+  bool deep; /* by the case itself bodies come deep into each other, or faster than contacts can stop them */
   SporeStabilityChange change;
   SporePushInput input;
   SporePushStart start;
@@ -46,22 +46,29 @@ typedef struct SporePush {
 extern const SporePush spore_pushes[];
 extern const size_t spore_push_count;
 
+/* How long a run is. */
+typedef struct SporePushLength {
+  size_t steps;
+  size_t most;       /* steps, where no instrument met anything in `steps`; 0: no more than these */
+  uint64_t until_ns; /* of the clock: no step begins later */
+} SporePushLength;
+
 /* What was seen in a run. */
 typedef struct SporePushRun {
-  size_t steps, wanted; /* taken, and to be taken */
-  bool finite, judged;  /* judged: the energy could be */
-  double gain;          /* largest gain of energy over start and work, as a part of the energy at work */
-  uint32_t fastest;     /* body with the most kinetic energy when that was seen */
-  double residual;      /* largest */
-  size_t contacts;      /* most at once */
-  double seconds;       /* of the clock */
+  size_t steps;
+  bool finite, judged; /* judged: the energy could be */
+  double gain;         /* largest gain of energy over start and work, as a part of the energy at work, since the monitor
+                          last moved a body by a safer method */
+  double gain_before;  /* the same before that */
+  uint32_t fastest;    /* body with the most kinetic energy when that was seen */
+  size_t met_at;       /* step in which an instrument first felt a force; 0: none did */
+  size_t contacts;     /* most at once */
   bool out_of_time;
 } SporePushRun;
 
-/* stability_run.c: runs the world from time 0, until `wanted` steps are taken, the world is cancelled or `until_ns` of
- * the clock. False: no memory. */
-bool spore_push_run(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push, size_t wanted,
-                    uint64_t until_ns, SporePushRun *run);
+/* stability_run.c: runs the world from time 0, as long as that, or until the world is cancelled. False: no memory. */
+bool spore_push_run(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push, SporePushLength length,
+                    SporePushRun *run);
 /* stability_verdict.c: judges the run, and writes the detail. */
 SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush *push, const SporePushRun *run,
                                        char *detail, size_t size);

@@ -9,9 +9,10 @@
 
 #include "core/measure/stability_private.h"
 
-#define LOOKS 100      /* at the energy, in a run */
-#define FALLEN_STEPS 4 /* what gravity gives in so many steps is at work at least */
-#define GRAVITY 9.81   /* m/s^2 */
+#define LOOKS 100            /* at the energy, in a run */
+#define STEPS_OF_MEETING 100 /* after an instrument met something */
+#define FALLEN_STEPS 4       /* what gravity gives in so many steps is at work at least */
+#define GRAVITY 9.81         /* m/s^2 */
 #define JUMP_STIFFNESS 1e3
 #define JUMP_CONTACT 100
 #define JUMP_GRAVITY 20. /* m/s^2 */
@@ -20,6 +21,7 @@ typedef struct Account {
   SporeEnergy start;
   double had, change, work, turnover; /* J */
   uint64_t outside;                   /* count_outside when it began */
+  size_t safer;                       /* count_safer when it began */
   bool begun;
 } Account;
 
@@ -50,6 +52,13 @@ static uint64_t count_outside(const SporeWorld *world) {
   return number;
 }
 
+/* Number of bodies that the monitor moves by a safer method. */
+static size_t count_safer(const SporeWorld *world) {
+  size_t count = 0;
+  for (uint32_t b = 0; b < spore_world_body_count(world); b++) count += spore_world_body_made_safer(world, b);
+  return count;
+}
+
 /* Whether tissue was coagulated in the last step. */
 static bool is_heated(const SporeWorld *world) {
   for (size_t i = 0; i < spore_world_tool_count(world); i++)
@@ -59,21 +68,26 @@ static bool is_heated(const SporeWorld *world) {
 
 static void begin(Account *account, const SporeWorld *world, double step_s) {
   SporeEnergy energy = spore_world_energy(world);
-  *account = (Account){.begun = true, .start = energy, .outside = count_outside(world)};
+  *account = (Account){.begun = true, .start = energy, .outside = count_outside(world), .safer = count_safer(world)};
   account->had = least_energy(world, step_s) + energy.kinetic + fabs(energy.internal) + energy.contact;
 }
 
-/* Work that the devices did in the step: forces on what they hold, times its way. */
-static void add_work(Account *account, SporeWorld *world, double step_s) {
+/* Work that the devices did in the step: forces on what they hold, times its way. True: they felt some. */
+static bool add_work(Account *account, SporeWorld *world, double step_s) {
   const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+  bool felt = false;
   for (uint32_t b = 0; b < spore_world_body_count(world); b++) {
     if (spore_world_body_role(world, b) != SPORE_ACTIVE) continue;
     const double *reaction = snapshot->reaction + 6 * (size_t)b, *v = spore_world_v(world, b);
     double work = 0;
-    for (int k = 0; k < 6; k++) work -= step_s * reaction[k] * v[k];
+    for (int k = 0; k < 6; k++) {
+      work -= step_s * reaction[k] * v[k];
+      felt |= reaction[k] != 0;
+    }
     account->work += work;
     account->turnover += fabs(work);
   }
+  return felt;
 }
 
 static uint32_t fastest_body(const SporeWorld *world) {
@@ -92,7 +106,7 @@ static uint32_t fastest_body(const SporeWorld *world) {
   return fastest;
 }
 
-static void look(Account *account, const SporeWorld *world, double step_s, SporePushRun *run) {
+static void look(Account *account, const SporeWorld *world, SporePushRun *run) {
   SporeEnergy now = spore_world_energy(world);
   if (!isfinite(total(&now))) {
     run->finite = false;
@@ -126,48 +140,57 @@ static void jump(const SporeStabilityScene *scene, SporeWorld *world, SporePushJ
   if (how == SPORE_JUMP_GRAVITY) spore_world_post(world, &sideways);
 }
 
-static void note_counts(SporePushRun *run, const SporeWorld *world) {
-  SporeStepCounts counts = spore_world_counts(world);
-  if (counts.contacts > run->contacts) run->contacts = counts.contacts;
-  run->residual = fmax(run->residual, counts.residual);
+/* Begins the account anew, and keeps what it came to. */
+static void begin_anew(Account *account, SporeWorld *world, double step_s, SporePushRun *run) {
+  if (account->begun && count_safer(world) != account->safer) {
+    run->gain_before = fmax(run->gain_before, run->gain);
+    run->gain = 0;
+  }
+  begin(account, world, step_s);
 }
 
-static void take_steps(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push, uint64_t until_ns,
-                       SporePushRun *run) {
+static bool is_over(const SporePushLength *length, const SporePushRun *run) {
+  if (!run->finite) return true;
+  if (length->most == 0 || run->steps < length->steps) return run->steps >= length->steps;
+  bool met = run->met_at > 0 && run->steps >= run->met_at + STEPS_OF_MEETING;
+  return met || run->steps >= length->most;
+}
+
+static void take_steps(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push,
+                       const SporePushLength *length, SporePushRun *run) {
   Account account = {0};
-  size_t stride = run->wanted / LOOKS + 1, jump_at = run->wanted / 2;
-  double step_s = 0;
-  while (run->steps < run->wanted && run->finite && !spore_world_cancelled(world)) {
-    if (spore_clock_ns() > until_ns) break;
+  size_t stride = length->steps / LOOKS + 1, jump_at = length->steps / 2;
+  while (!is_over(length, run)) {
+    run->out_of_time = spore_clock_ns() > length->until_ns;
+    if (run->out_of_time) break;
     bool jumps = push->jump != SPORE_JUMP_NONE && run->steps == jump_at;
     if (jumps) jump(scene, world, push->jump);
     double before_s = spore_world_time_s(world);
     spore_world_step(world);
     if (spore_world_cancelled(world)) break;
     spore_world_tidy(world);
-    step_s = spore_world_time_s(world) - before_s;
+    double step_s = spore_world_time_s(world) - before_s;
     run->steps++;
-    note_counts(run, world);
+    size_t contacts = spore_world_counts(world).contacts;
+    if (contacts > run->contacts) run->contacts = contacts;
     /* The first step counts what is deep in something else from the start as contacts. */
-    bool anew = !account.begun || jumps || is_heated(world) || count_outside(world) != account.outside;
-    if (anew) begin(&account, world, step_s);
-    else add_work(&account, world, step_s);
-    if (run->steps % stride == 0 || run->steps == run->wanted) look(&account, world, step_s, run);
+    bool anew = !account.begun || jumps || is_heated(world) || count_outside(world) != account.outside ||
+                count_safer(world) != account.safer;
+    if (anew) begin_anew(&account, world, step_s, run);
+    else if (add_work(&account, world, step_s) && run->met_at == 0) run->met_at = run->steps;
+    if (run->steps % stride == 0 || run->steps == length->steps) look(&account, world, run);
   }
-  run->out_of_time = run->finite && run->steps < run->wanted;
 }
 
-bool spore_push_run(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push, size_t wanted,
-                    uint64_t until_ns, SporePushRun *run) {
-  *run = (SporePushRun){.wanted = wanted, .finite = true, .fastest = SPORE_NO_BODY};
+bool spore_push_run(const SporeStabilityScene *scene, SporeWorld *world, const SporePush *push, SporePushLength length,
+                    SporePushRun *run) {
+  *run = (SporePushRun){.finite = true, .fastest = SPORE_NO_BODY};
   SporePushDevices *devices = NULL;
-  uint64_t begun_ns = spore_clock_ns();
-  if (push->input != SPORE_INPUT_AS_IT_IS && !(devices = spore_push_devices_new(world, push->input, wanted)))
+  if (push->input != SPORE_INPUT_AS_IT_IS && !(devices = spore_push_devices_new(world, push->input, length.steps)))
     return false;
   bool put = spore_start_put(world, push->start);
   run->judged = keeps_energy(world);
-  if (put) take_steps(scene, world, push, until_ns, run);
-  run->seconds = 1e-9 * (double)(spore_clock_ns() - begun_ns);
+  if (put) take_steps(scene, world, push, &length, run);
   spore_push_devices_free(devices);
   return put;
 }

@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/measure/stability_private.h"
 
-#define MISS 1e-3 /* of the load: a solution that misses more is not accepted as it is (core/sim/solve/recovery.c) */
+#define MISS 0.1  /* of the load: a solution that misses more is of little use (core/sim/solve/recovery.c) */
 #define GAIN 0.01 /* of the energy at work */
 #define REASONS 3 /* that a detail names */
 
@@ -88,7 +88,8 @@ static const char *name_of(const SporeWorld *world, uint32_t body) {
   return body == SPORE_NO_BODY ? "" : spore_world_body_name(world, body);
 }
 
-static void add_mended(Detail *detail, const SporeMonitor *monitor) {
+static void add_mended(Detail *detail, const SporeMonitor *monitor, const SporePushRun *run) {
+  if (run->judged && run->gain_before > GAIN) add(detail, _("energy rose by %.2g %% before"), 100 * run->gain_before);
   if (monitor->held_inputs > 0)
     add(detail, _("%llu inputs of devices were held, or followed more slowly"),
         (unsigned long long)monitor->held_inputs);
@@ -119,7 +120,7 @@ SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush 
         name_of(world, run->fastest), 100 * run->gain);
   SporeStabilityVerdict verdict = detail.reasons > 0 ? SPORE_STABILITY_FAILED : SPORE_STABILITY_RECOVERED;
   add_entries(&detail, world, push, run->steps, false);
-  add_mended(&detail, monitor);
+  add_mended(&detail, monitor, run);
   if (detail.reasons == 0) {
     verdict = SPORE_STABILITY_STABLE;
     add_stable(&detail, monitor, run);

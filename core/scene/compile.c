@@ -51,6 +51,7 @@ static gboolean say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
 static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
   SporeEnvironmentFields environment;
   SporeWorldDescription description = {.cancel = compiler->cancel,
+                                       .unpruned = compiler->unpruned,
                                        .body_count = compiler->bodies->len,
                                        .link_count = compiler->links->len,
                                        .tool_count = compiler->tools->len,
@@ -88,9 +89,9 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
   return NULL;
 }
 
-SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
-                                      const SporeCancel *cancel, GError **error) {
-  SporeCompiler compiler = {.document = document, .cancel = cancel, .error = error};
+static SporeSimulation *compile(SporeDocument *document, SporePool *pool, const SporeTrack *input, gboolean unpruned,
+                                const SporeCancel *cancel, GError **error) {
+  SporeCompiler compiler = {.document = document, .unpruned = unpruned, .cancel = cancel, .error = error};
   compiler.objects = g_ptr_array_new();
   compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
@@ -107,6 +108,16 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   g_ptr_array_unref(compiler.spheres);
   g_ptr_array_unref(compiler.fields);
   return simulation;
+}
+
+SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
+                                      const SporeCancel *cancel, GError **error) {
+  return compile(document, pool, input, FALSE, cancel, error);
+}
+
+SporeSimulation *spore_simulation_new_unpruned(SporeDocument *document, SporePool *pool, const SporeTrack *input,
+                                               const SporeCancel *cancel, GError **error) {
+  return compile(document, pool, input, TRUE, cancel, error);
 }
 
 void spore_simulation_free(SporeSimulation *simulation) {

@@ -20,7 +20,11 @@ typedef struct SporeSimulation {
  * when the scene cannot run, and when the compilation was cancelled. */
 SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
                                       const SporeCancel *cancel, GError **error);
+/* As spore_simulation_new, of a world that leaves nothing out: SporeWorldDescription.unpruned. */
+SporeSimulation *spore_simulation_new_unpruned(SporeDocument *document, SporePool *pool, const SporeTrack *input,
+                                               const SporeCancel *cancel, GError **error);
 void spore_simulation_free(SporeSimulation *simulation);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeSimulation, spore_simulation_free)
 /* Whether the body collides with its model's own spheres: its collision unit names no sphere set. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);
 /* Where the author puts a body at the start. */

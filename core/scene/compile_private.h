@@ -16,6 +16,7 @@ typedef struct SporeCompiler {
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GPtrArray *fields;  /* parameters of tools; the tools' descriptions borrow them */
   const SporeCancel *cancel;
+  gboolean unpruned; /* see SporeWorldDescription */
   GError **error;
 } SporeCompiler;
 

@@ -198,7 +198,7 @@ static bool make_grid(SporeWorld *world, SporeError *error) {
   size_t with = 0; /* bodies with spheres: only these can need a grid */
   for (size_t i = 0; i < world->body_count; i++)
     if (world->bodies[i].collision.spheres.point_count > 0) bodies[with++] = grid_body(&world->bodies[i]);
-  bool needed = spore_grid_body_pairs(bodies, with) > 0;
+  bool needed = spore_grid_body_pairs(bodies, with) > 0 || (world->schedule.unpruned && with > 0);
   for (size_t i = 0; i < world->body_count; i++) bodies[i] = grid_body(&world->bodies[i]);
   SporeSpheres reaching = world->contact.spheres;
   reaching.radius = world->contact.reach;
@@ -222,7 +222,7 @@ static bool create_spheres(SporeWorld *world, const SporeWorldDescription *descr
   all->body = SPORE_NEW_ARRAY(uint32_t, count);
   if (!all->centre || !all->before || !all->velocity || !all->radius || !all->body) return no_memory(error);
   if (!add_spheres(world, description, true, error)) return false;
-  all->static_count = all->count;
+  if (!world->schedule.unpruned) all->static_count = all->count;
   memcpy(all->before, all->centre, 3 * all->count * sizeof *all->centre);
   return add_spheres(world, description, false, error) && spore_world_create_fields(world, description, error) &&
          make_grid(world, error);
@@ -279,6 +279,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->pool = pool;
   world->cancel = description->cancel;
   world->solver = description->solver;
+  world->schedule.unpruned = description->unpruned;
+  if (description->unpruned) world->solver.sleep_speed = 0;
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
   world->links.hold_count = spore_tools_spring_count(description);

@@ -76,61 +76,84 @@ static size_t lines(const SporeWorld *world) { return world->topology.line_count
 static size_t islands(const SporeWorld *world) { return world->solve.island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->state.dof; }
 
+/* Estimates, us: of stages whose cost is not so much an item. Contacts are not known before they are there. */
+
+#define ITERATIONS 1.3   /* of an implicit step in which little happens */
+#define FRAME_US 1.5     /* an implicit step of a rigid body */
+#define EXPLICIT_US 0.06 /* a block in an explicit substep */
+#define VERIFY_US 0.02   /* a degree of freedom */
+
+static double integrate_work(const SporeWorld *world) {
+  double sum = 0;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    SporeBodyWork work;
+    if (body->role != SPORE_PASSIVE) continue;
+    if (spore_world_body_work(world, b, &work)) sum += ITERATIONS * 1e6 * work.step_s;
+    else if (spore_integrator(body->method.integrator)->implicit) sum += FRAME_US;
+    else sum += EXPLICIT_US * (double)(body->method.substeps * body->block_count);
+  }
+  return sum;
+}
+
+static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)world->state.dof; }
+
 /* The stages of a step. Contacts and links are found from `detect` to `link` and do not change in the rest of the
  * step, so that forces are a pure function of q, v and t. From `accept` on the next state is written; from `advance` on
  * the next state is the state. */
 static const SporeStageType stages[] = {
     {"commands", always, spore_world_apply_commands, NULL, /**/
-     N_("parameters and pulls may change while it runs"), NULL},
+     N_("parameters and pulls may change while it runs"), NULL, 0.02, 0},
     {"device_input", has_active, spore_world_read_devices, active_bodies, /**/
-     N_("active bodies follow their devices"), N_("no body is driven by a device or a track")},
+     N_("active bodies follow their devices"), N_("no body is driven by a device or a track"), 0.2, 0.7},
     {"tools", has_tools, spore_world_use_tools, tools, /**/
-     N_("instruments close, hold or suck"), N_("no instrument does more than touch")},
+     N_("instruments close, hold or suck"), N_("no instrument does more than touch"), 0.1, 0.5},
     {"tear", may_tear, spore_world_tear, tearing_bodies, /**/
-     N_("nets may tear where they are strained too much"), N_("no body tears")},
+     N_("nets may tear where they are strained too much"), N_("no body tears"), 0.1, 1},
     {"map", may_touch, spore_world_map_spheres, moving_spheres, /**/
-     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.1, 0.012},
     {"detect", may_touch, spore_world_detect, all_spheres, /**/
-     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.3, 0.004},
     {"wake", may_sleep, spore_world_wake_touched, sleeping_bodies, /**/
      N_("bodies at rest sleep until something that moves touches them"),
-     N_("bodies never sleep: sleep_speed is 0, or none moves by physics")},
+     N_("bodies never sleep: sleep_speed is 0, or none moves by physics"), 0.05, 0},
     {"respond", may_touch, spore_world_respond, contacts, /**/
-     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.1, 0.1},
     {"link", has_springs, spore_world_link, links, /**/
-     N_("links, jaws or a viewer's pull tie bodies"), N_("no link ties bodies, and nobody pulls at one")},
+     N_("links, jaws or a viewer's pull tie bodies"), N_("no link ties bodies, and nobody pulls at one"), 0.05, 0.08},
     {"islands", has_passive, spore_world_find_islands, islands, /**/
-     N_("bodies that touch are solved together"), N_("no body moves by physics")},
+     N_("bodies that touch are solved together"), N_("no body moves by physics"), 0.15, 0.05},
     {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
-     N_("passive bodies move by physics"), N_("no body moves by physics")},
+     N_("passive bodies move by physics"), N_("no body moves by physics"), 0, 0, integrate_work},
     {"verify", may_solve, spore_world_verify, degrees_of_freedom, /**/
-     N_("what steps solve is evaluated again, apart from the solver"), N_("no step solves equations")},
+     N_("what steps solve is evaluated again, apart from the solver"), N_("no step solves equations"), 0, 0,
+     verify_work},
     {"reactions", has_terms, spore_world_add_reactions, bodies, /**/
-     N_("contacts or links push back"), N_("nothing touches and nothing is tied")},
+     N_("contacts or links push back"), N_("nothing touches and nothing is tied"), 0.1, 0.03},
     {"feedback", has_active, spore_world_feed_back, active_bodies, /**/
-     N_("devices feel what active bodies touch"), N_("no body is driven by a device or a track")},
+     N_("devices feel what active bodies touch"), N_("no body is driven by a device or a track"), 0.1, 0.05},
     {"accept", has_moving, spore_world_accept, bodies, /**/
-     N_("bodies that move have a next state"), N_("no body moves")},
+     N_("bodies that move have a next state"), N_("no body moves"), 0.05, 0.02},
     {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
-     N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out")},
+     N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out"), 0.1, 0.02},
     {"split_nodes", may_split, spore_world_split_nodes, tetrahedra, /**/
-     N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart")},
+     N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart"), 0.1, 0},
     {"advance", always, spore_world_advance, bodies, /**/
-     N_("the next state becomes the state"), NULL},
+     N_("the next state becomes the state"), NULL, 0.05, 0.01},
     {"friction", may_touch, spore_world_keep_pairs, contacts, /**/
-     N_("contacts that stick hold on in the next step"), N_("no two bodies can touch")},
+     N_("contacts that stick hold on in the next step"), N_("no two bodies can touch"), 0.05, 0.06},
     {"break_links", may_break, spore_world_break_links, links, /**/
-     N_("links may bear too much"), N_("no link can break")},
+     N_("links may bear too much"), N_("no link can break"), 0.01, 0.01},
     {"tear_holds", has_holds, spore_world_tear_holds, tools, /**/
-     N_("what jaws hold may tear away"), N_("no jaws hold anything")},
+     N_("what jaws hold may tear away"), N_("no jaws hold anything"), 0.05, 0.05},
     {"watch_energy", spore_world_may_gain_energy, spore_world_watch_energy, bodies, /**/
-     N_("some methods may make energy out of nothing"), N_("no method makes energy out of nothing")},
+     N_("some methods may make energy out of nothing"), N_("no method makes energy out of nothing"), 0.1, 0.01},
     {"report", has_passive, spore_world_report_islands, islands, /**/
-     N_("what went wrong is counted and said"), N_("no body moves by physics")},
+     N_("what went wrong is counted and said"), N_("no body moves by physics"), 0.08, 0.02},
     {"refine_splines", may_refine, spore_world_refine_splines, lines, /**/
-     N_("threads get control points where they bend"), N_("no thread gets control points where it bends")},
+     N_("threads get control points where they bend"), N_("no thread gets control points where it bends"), 0, 1},
     {"publish", always, spore_world_end_step, bodies, /**/
-     N_("readers see the new state"), NULL},
+     N_("readers see the new state"), NULL, 0.1, 0.01},
 };
 _Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE_COUNT");
 
@@ -165,20 +188,26 @@ static bool pins_alone(const SporeWorld *world) { return links(world) == 0 && ha
 static const struct {
   const char *what;
   bool (*spared)(const SporeWorld *world);
-  const char *reason;
+  const char *reason, *stages;
 } spared[] = {
-    {N_("collision"), no_contact, N_("no two bodies can touch")},
-    {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start")},
-    {N_("integration"), no_passive, N_("no body moves by physics")},
+    {N_("collision"), no_contact, N_("no two bodies can touch"), "map detect respond friction"},
+    {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start"),
+     "map detect"},
+    {N_("integration"), no_passive, N_("no body moves by physics"), "islands integrate report"},
     {N_("the nonlinear solver"), explicit_alone,
-     N_("every body is integrated explicitly, and nothing touches or ties them")},
-    {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out")},
-    {N_("tools"), no_tools, N_("no instrument does more than touch")},
-    {N_("devices and feedback"), no_active, N_("no body is driven by a device or a track")},
-    {N_("links"), no_links, N_("the scene has none")},
-    {N_("links other than pins"), pins_alone, N_("the scene has none")},
+     N_("every body is integrated explicitly, and nothing touches or ties them"), "verify"},
+    {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out"), "particles"},
+    {N_("tools"), no_tools, N_("no instrument does more than touch"), "tools tear_holds"},
+    {N_("devices and feedback"), no_active, N_("no body is driven by a device or a track"), "device_input feedback"},
+    {N_("links"), no_links, N_("the scene has none"), "link break_links"},
+    {N_("links other than pins"), pins_alone, N_("the scene has none"), "link break_links"},
 };
 _Static_assert(sizeof spared / sizeof *spared <= SPORE_LEFT_OUT_MAXIMUM, "SPORE_LEFT_OUT_MAXIMUM");
+
+/* Contacts have no arrays to work on where no body has spheres. */
+static bool runs(const SporeWorld *world, const SporeStageType *stage) {
+  return stage->needed(world) || (world->schedule.unpruned && stage->needed != may_touch);
+}
 
 void spore_world_make_plan(SporeWorld *world) {
   SporeSchedule *schedule = &world->schedule;
@@ -187,19 +216,20 @@ void spore_world_make_plan(SporeWorld *world) {
   schedule->run_count = 0;
   schedule->stale = false;
   for (size_t i = 0; i < SPORE_STAGE_COUNT; i++) {
-    bool included = stages[i].needed(world);
+    bool included = runs(world, &stages[i]);
     SporeProfilePhase *profile = &schedule->profiles[i];
     profile->name = stages[i].name;
     schedule->plan_stages[plan->stage_count++] =
         (SporePlanStage){.name = stages[i].name,
                          .included = included,
-                         .reason = _(included ? stages[i].why : stages[i].why_not),
+                         .reason = _(stages[i].needed(world) ? stages[i].why : stages[i].why_not),
                          .profile = included ? profile : NULL};
     if (included) schedule->run[schedule->run_count++] = (uint8_t)i;
   }
   for (size_t i = 0; i < sizeof spared / sizeof *spared; i++)
     if (spared[i].spared(world))
-      schedule->left_out[plan->left_out_count++] = (SporePlanLeftOut){_(spared[i].what), _(spared[i].reason)};
+      schedule->left_out[plan->left_out_count++] =
+          (SporePlanLeftOut){_(spared[i].what), _(spared[i].reason), spared[i].stages};
 }
 
 bool spore_world_cancelled(const SporeWorld *world) { return world->schedule.cancelled; }
@@ -225,11 +255,17 @@ void spore_world_step(SporeWorld *world) {
   if (schedule->budget_us > 0 && schedule->step_us > schedule->budget_us) spore_world_report_budget(world);
 }
 
+static void fill_items(const SporeWorld *world, const SporeStageType *stage, SporePlanStage *plan) {
+  if (stage->items) plan->items = stage->items(world);
+  plan->estimate_us = stage->fixed_us + stage->item_us * (double)plan->items;
+  if (stage->work) plan->estimate_us += stage->work(world);
+}
+
 const SporePlan *spore_world_plan(const SporeWorld *world) {
-  /* The item counts of stages change from step to step. They are updated only when the plan is read. */
+  /* The item counts and estimates of stages change from step to step. They are updated only when the plan is read. */
   SporeSchedule *schedule = &((SporeWorld *)(uintptr_t)world)->schedule;
   for (size_t i = 0; i < schedule->plan.stage_count; i++)
-    if (schedule->plan_stages[i].included && stages[i].items) schedule->plan_stages[i].items = stages[i].items(world);
+    if (schedule->plan_stages[i].included) fill_items(world, &stages[i], &schedule->plan_stages[i]);
   return &schedule->plan;
 }
 

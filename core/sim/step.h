@@ -17,6 +17,8 @@ typedef struct SporeStageType {
   void (*run)(SporeWorld *world);
   size_t (*items)(const SporeWorld *world); /* what the stage works on; NULL: nothing to count */
   const char *why, *why_not;                /* why a world needs it, and why not; translatable (N_) */
+  double fixed_us, item_us;                 /* an estimate, of a machine of 2024 */
+  double (*work)(const SporeWorld *world);  /* the rest of the estimate, us; NULL: none */
 } SporeStageType;
 
 typedef struct SporeSchedule {
@@ -25,7 +27,8 @@ typedef struct SporeSchedule {
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   uint8_t run[SPORE_STAGE_COUNT]; /* the stages that the world needs, in order: what a step calls */
   size_t run_count;
-  bool stale; /* something that a stage depends on has begun or ended: the schedule is to be made again */
+  bool unpruned; /* every stage runs: see SporeWorldDescription */
+  bool stale;    /* something that a stage depends on has begun or ended: the schedule is to be made again */
   SporeProfilePhase profiles[SPORE_STAGE_COUNT];
   SporeProfilePhase profile; /* of whole steps */
   double step_us;            /* of the step before */

@@ -859,8 +859,11 @@ def plan_says_why():
     names = {s["name"]: s for s in answer["stages"]}
     assert {"detect", "integrate"} <= set(names)
     assert all(s["reason"] for s in answer["stages"])
-    assert names["detect"]["included"] and "measured_us" in names["detect"]
-    assert not names["link"]["included"] and "measured_us" not in names["link"]
+    assert names["detect"]["included"] and names["detect"]["measured_us"] > 0 and names["detect"]["estimate_us"] > 0
+    assert not names["link"]["included"] and "measured_us" not in names["link"] and "saves_us" in names["link"]
+    assert answer["unpruned"]["equal"] == "bit" and answer["unpruned"]["worst"] == 0 < answer["unpruned"]["us"]
+    assert {left["what"]: left["saves"] for left in answer["left_out"]}["links"] >= 0
+    assert answer["models"] == [{"name": "rigid_body", "bodies": 1}], answer["models"]
     left_out = {entry["what"] for entry in answer["left_out"]}
     assert "links" in left_out and "links other than pins" not in left_out and answer["libraries"]
     pinned = {entry["what"] for entry in report("plan", SCENES / "plate8-clamp.spore")["left_out"]}
@@ -868,6 +871,31 @@ def plan_says_why():
     tied = {entry["what"] for entry in report("plan", SCENES / "plate1-ovary.spore")["left_out"]}
     assert not any(what.startswith("links") for what in tied), tied
     assert not any("gtk" in library for library in answer["libraries"])
+
+
+@check
+def plan_tells_files_apart():
+    """plan says which files a run reads, which are only drawn, and which others were made from."""
+    needs = {asset["name"]: asset for asset in report("plan", SCENES / "plate1-ovary.spore")["assets"]}
+    assert needs["uterus-spheres"]["use"] == "simulated" and needs["tube_left"]["use"] == "drawn", needs
+    assert needs["uterus-spheres"]["bytes"] == (SCENES / "organs/uterus.spheres").stat().st_size
+    text = soft_ball().read_text()
+    file("soft/spare.off", "OFF\n0 0 0\n")
+    answer = report("plan", file("soft/spare.spore", text.replace("</assets>", '<mesh name="spare" file="spare.off"/></assets>')))
+    uses = {asset["name"]: asset["use"] for asset in answer["assets"]}
+    assert uses["spare"] == "unused" and "simulated" in uses.values(), uses
+    spare = [left for left in answer["left_out"] if left.get("bytes") == 10]
+    assert spare and spare[0]["what"] == "1 file", answer["left_out"]
+
+
+@check
+def plan_prunes_alike():
+    """Leaving out changes no bit of shipped scenes; where bodies sleep, it says how far off they are."""
+    for name in ("minimal", "plate1-ovary", "plate8-clamp", "table1-fluid"):
+        answer = report("plan", SCENES / f"{name}.spore", "--measure")["unpruned"]
+        assert answer["equal"] == "bit" and answer["worst"] == 0, (name, answer)
+    steam = report("plan", SCENES / "plate7-steam.spore", "--measure")["unpruned"]
+    assert steam["equal"] == "bound" and 0 <= steam["worst"] < 1e-4, steam
 
 
 @check

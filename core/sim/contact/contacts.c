@@ -39,8 +39,9 @@ static void forget_ways(const SporeWorld *world, const SporeBody *body) {
 void spore_world_map_spheres(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0) continue;
-    keep_centres(world, body, body->changed > world->contact.mapped);
+    bool still = body->role == SPORE_UNMOVABLE && !world->schedule.unpruned;
+    if (still || body->collision.spheres.point_count == 0) continue;
+    keep_centres(world, body, body->changed > world->contact.mapped || world->schedule.unpruned);
     if (!body->collision.moved) continue;
     assert(body->collision.start + body->collision.spheres.point_count <= world->contact.spheres.count);
     const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;

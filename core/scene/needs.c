@@ -1,0 +1,46 @@
+/* Finds what each asset of a scene is for. */
+#include "core/scene/needs.h"
+
+#include <string.h>
+
+const char *const spore_asset_use_names[] = {"unused", "source", "drawn", "simulated", NULL};
+
+static SporeAssetUse use_by(const SporeObject *user) {
+  const char *element = spore_object_type(user)->element;
+  if (strcmp(element, "visual") == 0) return SPORE_ASSET_DRAWN;
+  const SporeObject *parent = spore_object_parent(user);
+  gboolean asset = parent && strcmp(spore_object_type(parent)->element, "assets") == 0;
+  return asset ? SPORE_ASSET_SOURCE : SPORE_ASSET_SIMULATED;
+}
+
+/* Raises the use of what the object and its children name. uses: object -> SporeAssetUse. */
+static void add_uses(SporeObject *object, GHashTable *uses) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (guint i = 0; table && i < table->count; i++) {
+    if (table->parameters[i].type != SPORE_REFERENCE) continue;
+    SporeObject *target = spore_object_reference(object, table->parameters[i].name);
+    int use = (int)use_by(object);
+    if (target && GPOINTER_TO_INT(g_hash_table_lookup(uses, target)) < use)
+      g_hash_table_insert(uses, target, GINT_TO_POINTER(use));
+  }
+  for (guint i = 0; i < spore_object_child_count(object); i++) add_uses(spore_object_child(object, i), uses);
+}
+
+static gsize bytes_of(SporeDocument *document, SporeObject *asset) {
+  g_autoptr(GBytes) content = spore_document_read_asset(document, spore_object_text(asset, "file"), NULL);
+  return content ? g_bytes_get_size(content) : 0;
+}
+
+GArray *spore_document_asset_needs(SporeDocument *document) {
+  g_autoptr(GHashTable) uses = g_hash_table_new(NULL, NULL);
+  GArray *needs = g_array_new(FALSE, TRUE, sizeof(SporeAssetNeed));
+  add_uses(spore_document_root(document), uses);
+  const SporeObject *assets = spore_document_section(document, "assets");
+  for (guint i = 0; i < spore_object_child_count(assets); i++) {
+    SporeAssetNeed need = {.asset = spore_object_child(assets, i)};
+    need.use = (SporeAssetUse)GPOINTER_TO_INT(g_hash_table_lookup(uses, need.asset));
+    need.bytes = bytes_of(document, need.asset);
+    g_array_append_val(needs, need);
+  }
+  return needs;
+}
