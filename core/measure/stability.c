@@ -8,6 +8,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/integrate/integrator.h"
 #include "core/measure/stability_private.h"
 
 #define QUICK_STEPS 100 /* of a trial */
@@ -17,7 +18,8 @@
 #define CELL_STEPS 100       /* of a cell of the map */
 #define WORK_OF_A_CASE 2.5e6 /* steps times degrees of freedom */
 #define WORK_OF_A_QUICK_CASE 2.5e5
-#define LEAST_STEPS 100 /* of a case */
+#define TIMES_EXPLICIT 8 /* as many steps where none is implicit */
+#define LEAST_STEPS 100  /* of a case */
 #define USUAL_TIME_S 1.
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
 #define UNTIL_LIMITS 0.4
@@ -177,7 +179,8 @@ typedef struct LimitSearch {
   SporeWorld *world;
   uint32_t body;
   SporeStabilityLimit *limit;
-  bool failed; /* cancelled, or no memory */
+  bool failed;  /* cancelled, or no memory */
+  bool nothing; /* of the body moves */
 } LimitSearch;
 
 static int is_safe(void *data, double step_s) {
@@ -192,6 +195,7 @@ static int is_safe(void *data, double step_s) {
     else spore_error_set(search->study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
     return -1;
   }
+  if (result.outcome == SPORE_METHOD_NOTHING) return search->nothing = true, -1;
   if (result.outcome == SPORE_METHOD_BOUNDED) return 1;
   if (step_s < search->limit->found.unsafe_s) {
     search->limit->found.unsafe_s = step_s;
@@ -212,16 +216,20 @@ static SporeIntegratorKind kind_of(const char *name) {
   return (SporeIntegratorKind)kind;
 }
 
+static const char *largest_step_of(const char *body, char *text, size_t size) {
+  snprintf(text, size, _("largest step of %s"), body);
+  return text;
+}
+
 /* False: cancelled, or no memory. */
 static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeIntegratorKind kind,
                        const SporeMethod *method) {
   SporeStabilityReport *report = study->report;
   const char *name = spore_world_body_name(world, body);
   bool quick = study->options->quick, own = kind == kind_of(method->integrator.name);
+  char what[200];
   if (is_late(study, UNTIL_LIMITS)) {
-    char what[200];
-    snprintf(what, sizeof what, _("largest step of %s by %s"), name, spore_integrator_names[kind]);
-    leave_out(study, _("no time; give it more by --seconds"), what);
+    leave_out(study, _("no time; give it more by --seconds"), largest_step_of(name, what, sizeof what));
     return true;
   }
   SporeStabilityLimit *limit = &report->limits[report->limit_count];
@@ -242,6 +250,11 @@ static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeInte
                                                       .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
                                                       .cuts = quick ? QUICK_CUTS : CUTS},
                                    is_safe, &search);
+  if (search.nothing) {
+    leave_out(study, _("nothing of it moves at the start"), largest_step_of(name, what, sizeof what));
+    spore_free(limit->body);
+    report->limit_count--;
+  }
   return !search.failed;
 }
 
@@ -249,8 +262,9 @@ static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeInte
 static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, const SporeMethod *method) {
   SporeIntegratorKind own = kind_of(method->integrator.name);
   char what[200];
-  snprintf(what, sizeof what, _("largest step of %s"), spore_world_body_name(world, body));
-  if (own == SPORE_INTEGRATOR_STATIC) leave_out(study, _("static finds a balance, and takes no step in time"), what);
+  const char *name = spore_world_body_name(world, body);
+  if (own == SPORE_INTEGRATOR_STATIC)
+    leave_out(study, _("static finds a balance, and takes no step in time"), largest_step_of(name, what, sizeof what));
   else if (!find_limit(study, world, body, own, method)) return false;
   if (study->options->quick) return true;
   for (int kind = 0; kind < SPORE_INTEGRATOR_STATIC; kind++)
@@ -338,10 +352,20 @@ static bool allocate(SporeStabilityReport *report, const SporeWorld *world) {
   return report->cases && report->limits && report->left_out;
 }
 
+static bool all_explicit(const SporeWorld *world) {
+  for (uint32_t b = 0; b < spore_world_body_count(world); b++) {
+    SporeMethod method;
+    if (spore_world_body_method(world, b, &method) && spore_integrator(kind_of(method.integrator.name))->implicit)
+      return false;
+  }
+  return true;
+}
+
 /* Steps of a case: the time that was asked for; else a second, and no more work than a case may be. */
 static size_t choose_steps(const SporeStabilityOptions *options, const SporeWorld *world, double step_s) {
   if (options->time_s > 0) return (size_t)fmax(ceil(options->time_s / step_s - 1e-9), 1);
   double most = (options->quick ? WORK_OF_A_QUICK_CASE : WORK_OF_A_CASE) / fmax((double)spore_world_dof(world), 1);
+  if (all_explicit(world)) most *= TIMES_EXPLICIT;
   return (size_t)fmax(fmin(ceil(USUAL_TIME_S / step_s), most), LEAST_STEPS);
 }
 

@@ -96,6 +96,24 @@ static void test_prediction(void) {
   spore_world_free(world);
 }
 
+/* The same of a mode with little and with much damping. */
+static void test_damped_prediction(void) {
+  const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_EXPLICIT_EULER, SPORE_INTEGRATOR_SYMPLECTIC_EULER,
+                                       SPORE_INTEGRATOR_VERLET, SPORE_INTEGRATOR_RK4};
+  const double dampings[] = {0.05, 0.4, 1, 3};
+  for (gsize d = 0; d < G_N_ELEMENTS(dampings); d++) {
+    SporeWorld *world = spring_and_mass(dampings[d]);
+    for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
+      SporeStepLimit limit;
+      g_assert_true(spore_world_predict_step(world, 0, kinds[i], &limit, NULL));
+      g_test_message("%s, damping %g: %g s", spore_integrator_names[kinds[i]], dampings[d], limit.whole_dt_s);
+      g_assert_cmpint(outcome(world, kinds[i], 0.98 * limit.whole_dt_s, 400), ==, SPORE_METHOD_BOUNDED);
+      g_assert_cmpint(outcome(world, kinds[i], 1.02 * limit.whole_dt_s, 400), !=, SPORE_METHOD_BOUNDED);
+    }
+    spore_world_free(world);
+  }
+}
+
 /* Damping below 0 feeds energy into all that moves: the planted fault. No method is safe then, at any step. */
 static void test_planted(void) {
   const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_VERLET, SPORE_INTEGRATOR_RK4,
@@ -140,6 +158,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/method_trial/explicit_euler", test_explicit_euler);
   g_test_add_func("/method_trial/implicit", test_implicit);
   g_test_add_func("/method_trial/prediction", test_prediction);
+  g_test_add_func("/method_trial/damped_prediction", test_damped_prediction);
   g_test_add_func("/method_trial/planted", test_planted);
   g_test_add_func("/method_trial/not_finite", test_not_finite);
   g_test_add_func("/method_trial/no_trace", test_no_trace);

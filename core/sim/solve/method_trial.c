@@ -10,7 +10,7 @@
 #define SLOWEST_PUSH 1e-3 /* of the body's extent in a second: where nothing is stiff */
 #define GAIN 0.01         /* of the energy at work */
 #define SWING 2           /* times the gains of the first half of the steps */
-#define HOPELESS 1e6      /* times the energy at work: no swing */
+#define SWING_MOST 1e3    /* times the energy at work; that of a mode swings so far at .998 of its largest step */
 
 typedef struct Trial {
   SporeWorld *world;
@@ -113,7 +113,7 @@ static bool enter(const Trial *trial, Account *account, const double *q, const d
   double gain = kinetic - account->kinetic + stored;
   account->work = fmax(account->work, kinetic + fabs(stored) - fmax(gain, 0));
   account->gain[half] = fmax(account->gain[half], gain);
-  return gain <= HOPELESS * account->work;
+  return gain <= SWING_MOST * account->work;
 }
 
 static bool is_bounded(const Trial *trial, const Account *account) {
@@ -169,6 +169,7 @@ static SporeMethodResult run(Trial *trial, size_t steps) {
     else if (!enter(trial, &account, q, v, i >= steps / 2)) result.outcome = SPORE_METHOD_GREW;
   }
   if (result.outcome == SPORE_METHOD_BOUNDED && !is_bounded(trial, &account)) result.outcome = SPORE_METHOD_GREW;
+  if (account.work == 0) result.outcome = SPORE_METHOD_NOTHING;
   result.gain = account.work > 0 ? fmax(account.gain[0], account.gain[1]) / account.work : 0;
   return result;
 }

@@ -12,6 +12,7 @@ typedef enum SporeMethodOutcome {
   SPORE_METHOD_GREW,       /* energy came out of nothing */
   SPORE_METHOD_NOT_FINITE, /* the motion is not finite */
   SPORE_METHOD_NOT_SOLVED, /* an implicit step was not solved to tolerance */
+  SPORE_METHOD_NOTHING,    /* nothing moved: pins hold all of the body, or none of its particles is in the world */
   SPORE_METHOD_CANCELLED,
   SPORE_METHOD_NO_MEMORY
 } SporeMethodOutcome;
@@ -33,7 +34,8 @@ typedef struct SporeMethodResult {
  * energy, so that any gain comes out of nothing. An implicit method may gain 1 % of the energy at work. The energy of
  * an explicit one rises and falls within a period of a mode, also where it stays bounded: it may gain 1 % more in the
  * second half of the steps than in the first, and one that lets the energy swing (SporeIntegrator.swings) twice as
- * much. To be called after a reset of the world, which is as before then. Allocates. body: a passive one. */
+ * much; never more than 1000 times the energy at work.
+ * To be called after a reset of the world, which is as before then. Allocates. body: a passive one. */
 SporeMethodResult spore_world_try_method(SporeWorld *world, uint32_t body, const SporeMethodTrial *trial);
 
 /* What spore_step_limit says of the body at time 0. dt_s and whole_dt_s are infinite for an implicit method, unless the

@@ -101,20 +101,67 @@ static void clear(Power *power) {
   spore_free(power->z);
 }
 
-/* Root of w^2 h^2 + b d h = a - reserve. */
-static double stable_step(const SporeIntegrator *integrator, double square, double damping, double reserve) {
-  assert(integrator->stable_square > reserve);
-  double a = integrator->stable_square - reserve, b = integrator->stable_damping * damping;
+/* Root of w^2 h^2 + b d h = a - 1. */
+static double stable_step(const SporeIntegrator *integrator, double square, double damping) {
+  assert(integrator->stable_square > 1);
+  double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
   if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
   return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
+}
+
+/* One step of h seconds of the mode x' = v, v' = -w^2 x - d v, as a matrix on (w x, v, and h v' where it is kept). */
+static void step_matrix(const SporeIntegrator *integrator, double w, double d, double h, double m[9]) {
+  double y = h * w, z = h * d;
+  if (integrator == &spore_symplectic_euler) {
+    memcpy(m, (double[]){1 - y * y, y * (1 - z), 0, -y, 1 - z, 0, 0, 0, 0}, 9 * sizeof *m);
+  } else if (integrator == &spore_verlet) {
+    double kept[3] = {-y, -y * y - z, -0.5 * y * y - z};
+    memcpy(m, (double[]){1, y, 0.5 * y, 0.5 * kept[0], 1 + 0.5 * kept[1], 0.5 + 0.5 * kept[2]}, 6 * sizeof *m);
+    memcpy(m + 6, kept, sizeof kept);
+  } else {
+    assert(integrator == &spore_rk4);
+    double power[4] = {1, 0, 0, 1}, sum[4] = {1, 0, 0, 1};
+    for (int k = 1; k <= 4; k++) {
+      const double next[4] = {-y * power[1] / k, (y * power[0] - z * power[1]) / k, -y * power[3] / k,
+                              (y * power[2] - z * power[3]) / k};
+      memcpy(power, next, sizeof next);
+      for (int e = 0; e < 4; e++) sum[e] += next[e];
+    }
+    memcpy(m, (double[]){sum[0], sum[1], 0, sum[2], sum[3], 0, 0, 0, 0}, 9 * sizeof *m);
+  }
+}
+
+/* Whether no eigenvalue is larger than 1: Jury's conditions on l^3 + a l^2 + b l + c. */
+static bool is_stable(const double m[9]) {
+  const double slack = 1e-9;
+  double a = -(m[0] + m[4] + m[8]);
+  double b = m[0] * m[4] - m[1] * m[3] + m[0] * m[8] - m[2] * m[6] + m[4] * m[8] - m[5] * m[7];
+  double c =
+      -(m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]));
+  return 1 + a + b + c >= -slack && 1 - a + b - c >= -slack && fabs(c) <= 1 + slack &&
+         fabs(b - a * c) <= 1 - c * c + slack;
+}
+
+/* The largest step of a mode with that frequency and damping, by bisection. */
+static double mode_step(const SporeIntegrator *integrator, const SporeStepLimit *limit) {
+  double rate = fmax(limit->frequency, limit->damping), m[9];
+  if (rate == 0) return HUGE_VAL;
+  double low = 0, high = 4 / rate; /* no method is stable there */
+  for (int i = 0; i < 50; i++) {
+    double middle = 0.5 * (low + high);
+    step_matrix(integrator, limit->frequency, limit->damping, middle, m);
+    if (is_stable(m)) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 /* The steps by frequency and damping; 0 where the integrator has no such rule. */
 static void set_steps(SporeStepLimit *limit, const SporeIntegrator *integrator) {
   double square = limit->frequency * limit->frequency;
   bool ruled = integrator->stable_square > 0;
-  limit->dt_s = ruled ? SURE * stable_step(integrator, square, limit->damping, 1) : 0;
-  limit->whole_dt_s = ruled ? stable_step(integrator, square, limit->damping, 0) : 0;
+  limit->dt_s = ruled ? SURE * stable_step(integrator, square, limit->damping) : 0;
+  limit->whole_dt_s = ruled ? mode_step(integrator, limit) : 0;
 }
 
 /* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
@@ -143,6 +190,14 @@ static double explicit_euler_step(Power *power, const SporeModel *model, const d
   return low;
 }
 
+/* Where damping alone limits explicit Euler, to 2/d at least: the exact limit of a mode, d/w^2 or, where it is
+ * overdamped, 2 by the larger of its rates. */
+static double damped_euler_step(const SporeStepLimit *limit, double step_s) {
+  double half = 0.5 * limit->damping, square = limit->frequency * limit->frequency;
+  if (step_s * half < 0.99) return step_s;
+  return half * half < square ? limit->damping / square : 2 / (half + sqrt(half * half - square));
+}
+
 bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   assert(model && limit);
@@ -169,8 +224,9 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     limit->frequency = sqrt(square);
     set_steps(limit, integrator);
     if (integrator->stable_square == 0) {
-      limit->whole_dt_s = explicit_euler_step(&power, model, q, v, limit);
-      limit->dt_s = SURE * limit->whole_dt_s;
+      double step_s = explicit_euler_step(&power, model, q, v, limit);
+      limit->dt_s = SURE * step_s;
+      limit->whole_dt_s = damped_euler_step(limit, step_s);
     }
   }
   clear(&power);

@@ -9,7 +9,7 @@ typedef struct SporeStepLimit {
   double frequency;  /* largest angular eigenfrequency of M^-1 K, rad/s */
   double damping;    /* largest eigenvalue of M^-1 D, 1/s */
   double dt_s;       /* largest stable step; infinite where nothing is stiff, 0 where no step is stable */
-  double whole_dt_s; /* the same where neither contacts and links nor the error of the iteration get a part of it */
+  double whole_dt_s; /* that of a mode with this frequency and damping, without any reserve */
 } SporeStepLimit;
 
 /* For the explicit method `kind`, by power iteration on M^-1 K and M^-1 D at (q, v), blocks in `held` (held_count,
