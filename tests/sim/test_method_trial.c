@@ -108,7 +108,8 @@ static void test_damped_prediction(void) {
       g_assert_true(spore_world_predict_step(world, 0, kinds[i], &limit, NULL));
       g_test_message("%s, damping %g: %g s", spore_integrator_names[kinds[i]], dampings[d], limit.whole_dt_s);
       g_assert_cmpint(outcome(world, kinds[i], 0.98 * limit.whole_dt_s, 400), ==, SPORE_METHOD_BOUNDED);
-      g_assert_cmpint(outcome(world, kinds[i], 1.02 * limit.whole_dt_s, 400), !=, SPORE_METHOD_BOUNDED);
+      if (kinds[i] != SPORE_INTEGRATOR_EXPLICIT_EULER) /* what is said of it is a lower bound */
+        g_assert_cmpint(outcome(world, kinds[i], 1.02 * limit.whole_dt_s, 400), !=, SPORE_METHOD_BOUNDED);
     }
     spore_world_free(world);
   }

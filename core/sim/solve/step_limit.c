@@ -16,8 +16,9 @@
 
 typedef struct Power {
   SporeBlockMatrix matrix;
-  double *inverse; /* M^-1, 9 a block */
-  double *x, *y, *z;
+  double *inverse;         /* M^-1, 9 a block */
+  double *x, *y, *z;       /* after an iteration: the eigenvector; work; M times the eigenvector */
+  double *other, *weighed; /* the eigenvector before that, and M times it */
   const uint32_t *held;
   size_t held_count;
   double shift; /* s: the matrix is K + s M */
@@ -90,7 +91,9 @@ static bool allocate(Power *power, const SporeModel *model) {
   power->x = SPORE_NEW_ARRAY(double, n);
   power->y = SPORE_NEW_ARRAY(double, n);
   power->z = SPORE_NEW_ARRAY(double, n);
-  return made && power->inverse && power->x && power->y && power->z;
+  power->other = SPORE_NEW_ARRAY(double, n);
+  power->weighed = SPORE_NEW_ARRAY(double, n);
+  return made && power->inverse && power->x && power->y && power->z && power->other && power->weighed;
 }
 
 static void clear(Power *power) {
@@ -99,6 +102,8 @@ static void clear(Power *power) {
   spore_free(power->x);
   spore_free(power->y);
   spore_free(power->z);
+  spore_free(power->other);
+  spore_free(power->weighed);
 }
 
 /* Root of w^2 h^2 + b d h = a - 1. */
@@ -143,25 +148,49 @@ static bool is_stable(const double m[9]) {
 }
 
 /* The largest step of a mode with that frequency and damping, by bisection. */
-static double mode_step(const SporeIntegrator *integrator, const SporeStepLimit *limit) {
-  double rate = fmax(limit->frequency, limit->damping), m[9];
+static double mode_step(const SporeIntegrator *integrator, double frequency, double damping) {
+  double rate = fmax(frequency, damping), m[9];
   if (rate == 0) return HUGE_VAL;
-  double low = 0, high = 4 / rate; /* no method is stable there */
+  double low = 0, high = 8 / rate; /* no method is stable there: a rate of the mode is w, or d/2, at least */
   for (int i = 0; i < 50; i++) {
     double middle = 0.5 * (low + high);
-    step_matrix(integrator, limit->frequency, limit->damping, middle, m);
+    step_matrix(integrator, frequency, damping, middle, m);
     if (is_stable(m)) low = middle;
     else high = middle;
   }
   return low;
 }
 
-/* The steps by frequency and damping; 0 where the integrator has no such rule. */
-static void set_steps(SporeStepLimit *limit, const SporeIntegrator *integrator) {
-  double square = limit->frequency * limit->frequency;
-  bool ruled = integrator->stable_square > 0;
-  limit->dt_s = ruled ? SURE * stable_step(integrator, square, limit->damping) : 0;
-  limit->whole_dt_s = ruled ? mode_step(integrator, limit) : 0;
+/* x.A x / x.M x of the present matrix; weighed: M x. */
+static double quotient(Power *power, const double *x, const double *weighed) {
+  size_t n = 3 * power->matrix.block_count;
+  double square = dot(x, weighed, n);
+  memset(power->y, 0, n * sizeof *power->y);
+  spore_block_matrix_multiply_add(&power->matrix, x, power->y);
+  return square > 0 ? fmax(dot(x, power->y, n) / square, 0) : 0;
+}
+
+/* Eigenvalues, and the step of the mode of largest frequency with the damping that it has, or of that of largest
+ * damping with its frequency, whichever is smaller. */
+static void find_modes(Power *power, const SporeModel *model, const double *q, const double *v,
+                       const SporeIntegrator *integrator, SporeStepLimit *limit) {
+  size_t n = 3 * model->block_count;
+  model->type->jacobian(model, q, q, v, 1, 0, &power->matrix);
+  limit->frequency = sqrt(largest_eigenvalue(power));
+  memcpy(power->other, power->x, n * sizeof *power->x);
+  memcpy(power->weighed, power->z, n * sizeof *power->z);
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, q, v, 0, 1, &power->matrix);
+  double its_damping = quotient(power, power->other, power->weighed);
+  limit->damping = largest_eigenvalue(power);
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, q, v, 1, 0, &power->matrix);
+  double its_frequency = limit->damping > 0 ? sqrt(quotient(power, power->x, power->z)) : 0;
+  if (integrator->stable_square == 0) return;
+  limit->dt_s = SURE * stable_step(integrator, limit->frequency * limit->frequency, limit->damping);
+  limit->whole_dt_s = mode_step(integrator, limit->frequency, its_damping);
+  if (limit->damping > 0)
+    limit->whole_dt_s = fmin(limit->whole_dt_s, mode_step(integrator, its_frequency, limit->damping));
 }
 
 /* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
@@ -190,14 +219,6 @@ static double explicit_euler_step(Power *power, const SporeModel *model, const d
   return low;
 }
 
-/* Where damping alone limits explicit Euler, to 2/d at least: the exact limit of a mode, d/w^2 or, where it is
- * overdamped, 2 by the larger of its rates. */
-static double damped_euler_step(const SporeStepLimit *limit, double step_s) {
-  double half = 0.5 * limit->damping, square = limit->frequency * limit->frequency;
-  if (step_s * half < 0.99) return step_s;
-  return half * half < square ? limit->damping / square : 2 / (half + sqrt(half * half - square));
-}
-
 bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   assert(model && limit);
@@ -206,7 +227,9 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
   const SporeIntegrator *integrator = spore_integrator(kind);
   if (model->type->rates) {
     model->type->rates(model, &limit->frequency, &limit->damping);
-    set_steps(limit, integrator);
+    if (integrator->stable_square == 0) return limit->dt_s = limit->whole_dt_s = 0, true;
+    limit->dt_s = SURE * stable_step(integrator, limit->frequency * limit->frequency, limit->damping);
+    limit->whole_dt_s = mode_step(integrator, limit->frequency, limit->damping);
     return true;
   }
   if (!model->type->jacobian) return true;
@@ -216,17 +239,10 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
   }
   if (invert_mass(model, q, power.inverse)) {
-    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
-    double square = largest_eigenvalue(&power);
-    spore_block_matrix_zero(&power.matrix);
-    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
-    limit->damping = largest_eigenvalue(&power);
-    limit->frequency = sqrt(square);
-    set_steps(limit, integrator);
+    find_modes(&power, model, q, v, integrator, limit);
     if (integrator->stable_square == 0) {
-      double step_s = explicit_euler_step(&power, model, q, v, limit);
-      limit->dt_s = SURE * step_s;
-      limit->whole_dt_s = damped_euler_step(limit, step_s);
+      limit->whole_dt_s = explicit_euler_step(&power, model, q, v, limit);
+      limit->dt_s = SURE * limit->whole_dt_s;
     }
   }
   clear(&power);

@@ -9,7 +9,8 @@ typedef struct SporeStepLimit {
   double frequency;  /* largest angular eigenfrequency of M^-1 K, rad/s */
   double damping;    /* largest eigenvalue of M^-1 D, 1/s */
   double dt_s;       /* largest stable step; infinite where nothing is stiff, 0 where no step is stable */
-  double whole_dt_s; /* that of a mode with this frequency and damping, without any reserve */
+  double whole_dt_s; /* without any reserve: the smaller of what the modes of this frequency and of this damping bear;
+                        explicit Euler bears at least so much */
 } SporeStepLimit;
 
 /* For the explicit method `kind`, by power iteration on M^-1 K and M^-1 D at (q, v), blocks in `held` (held_count,
