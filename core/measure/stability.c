@@ -24,6 +24,7 @@
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
 #define UNTIL_LIMITS 0.4
 #define UNTIL_CASES 0.8
+#define SMALL_STEP 1e-9 /* of the scene's: the smallest step that a scene may have is taken */
 #define LEFT_OUT_MOST 16
 /* Times the steps of a case, until an instrument meets something. */
 #define LONGER 4
@@ -115,12 +116,16 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   return true;
 }
 
+/* Whether a world was not made for want of memory, or since the study was cancelled: then the study ends, too. */
+static bool is_fatal(Study *study, const SporeError *refusal) {
+  bool fatal = refusal->code == SPORE_ERROR_CANCELLED || refusal->code == SPORE_ERROR_MEMORY;
+  if (fatal && study->error) *study->error = *refusal;
+  return fatal;
+}
+
 /* A scene that is refused with the remedy before it runs went as it should. */
 static bool note_refusal(Study *study, const SporePush *push, const SporeError *refusal) {
-  if (refusal->code == SPORE_ERROR_CANCELLED || refusal->code == SPORE_ERROR_MEMORY) {
-    if (study->error) *study->error = *refusal;
-    return false;
-  }
+  if (is_fatal(study, refusal)) return false;
   SporeStabilityCase *into = &study->report->cases[study->report->case_count++];
   *into = (SporeStabilityCase){.name = push->name, .label = push->label, .verdict = SPORE_STABILITY_REFUSED};
   snprintf(into->detail, sizeof into->detail, _("refused before the first step: %s%s%s"), refusal->place,
@@ -305,11 +310,9 @@ static bool fill_cell(Study *study, SporeStabilityMap *map, size_t row, size_t c
   SporePushRun run;
   SporeWorld *world = study->scene->make(study->scene->data, &change, &refusal);
   if (!world) {
-    bool refused = refusal.code != SPORE_ERROR_CANCELLED && refusal.code != SPORE_ERROR_MEMORY;
-    if (!refused && study->error) *study->error = refusal;
-    map->known[row][column] = refused;
+    map->known[row][column] = !is_fatal(study, &refusal);
     map->cells[row][column] = SPORE_STABILITY_REFUSED;
-    return refused;
+    return map->known[row][column];
   }
   bool done = spore_push_run(study->scene, world, &spore_pushes[0],
                              (SporePushLength){.steps = map->steps, .until_ns = clock_at(study, 1)}, &run);
@@ -317,6 +320,38 @@ static bool fill_cell(Study *study, SporeStabilityMap *map, size_t row, size_t c
   map->known[row][column] = !run.out_of_time;
   map->cells[row][column] = spore_push_judge(world, &spore_pushes[0], &run, detail, sizeof detail);
   if (spore_world_cancelled(world)) done = spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  study->scene->drop(study->scene->data, world);
+  return done;
+}
+
+/* The body whose own method bears the smallest steps, compared with its step in the scene; NULL: theory sets no limit.
+ */
+static const SporeStabilityLimit *narrowest(const SporeStabilityReport *report) {
+  const SporeStabilityLimit *found = NULL;
+  double least = HUGE_VAL;
+  for (size_t i = 0; i < report->limit_count; i++) {
+    const SporeStabilityLimit *limit = &report->limits[i];
+    double part = limit->predicted_s / limit->step_s;
+    if (!limit->own || !(limit->predicted_s > 0) || !(part < least)) continue;
+    least = part;
+    found = limit;
+  }
+  return found;
+}
+
+/* What theory says of that body at the row's stiffness, from a world with a step that is small enough not to be
+ * refused. */
+static bool predict_row(Study *study, SporeStabilityMap *map, size_t row) {
+  SporeError refusal = SPORE_ERROR_INIT;
+  SporeStepLimit predicted;
+  const SporeStabilityLimit *limit = map->narrowest;
+  const SporeStabilityChange change = {SMALL_STEP, map->stiffness[row], 1, 1, false};
+  if (!limit) return true;
+  SporeWorld *world = study->scene->make(study->scene->data, &change, &refusal);
+  if (!world) return !is_fatal(study, &refusal);
+  uint32_t body = spore_world_find_body(world, limit->body);
+  bool done = spore_world_predict_step(world, body, limit->method, &predicted, study->error);
+  if (done) map->limit_s[row] = predicted.whole_dt_s * study->report->time_step_s / limit->step_s;
   study->scene->drop(study->scene->data, world);
   return done;
 }
@@ -330,8 +365,10 @@ static bool make_map(Study *study) {
     return true;
   }
   *map = empty_map(study);
+  map->narrowest = narrowest(study->report);
   for (size_t k = 0; k < map->rows; k++) {
     size_t half = map->rows / 2, away = (k + 1) / 2, row = k % 2 ? half + away : half - away;
+    if (!is_late(study, 1) && !predict_row(study, map, row)) return false;
     for (size_t column = 0; column < map->columns; column++) {
       if (is_late(study, 1)) left++;
       else if (!go_on(study, 0.3, _("the map")) || !fill_cell(study, map, row, column)) return false;

@@ -73,6 +73,9 @@ typedef struct SporeStabilityMap {
   size_t columns, rows, steps; /* steps: taken in each cell; 0 columns: there is no map */
   double time_step_s[SPORE_STABILITY_COLUMNS], stiffness[SPORE_STABILITY_ROWS]; /* ascending */
   SporeStabilityVerdict cells[SPORE_STABILITY_ROWS][SPORE_STABILITY_COLUMNS];
+  const SporeStabilityLimit
+      *narrowest; /* of a body by its own method, where theory sets a limit; NULL: it does nowhere */
+  double limit_s[SPORE_STABILITY_ROWS]; /* time step that this body bears by theory; 0: not known */
   bool known[SPORE_STABILITY_ROWS][SPORE_STABILITY_COLUMNS]; /* false: left out */
 } SporeStabilityMap;
 

@@ -18,6 +18,7 @@
 #define BELOW 92.
 #define LINE_OF_TEXT 18.
 
+#define LIMIT_STROKE " stroke=\"#000000\" stroke-width=\"2.5\" stroke-dasharray=\"9 4\""
 #define DARK " stroke=\"#222222\" stroke-width=\"2\""
 
 static const char patterns[] =
@@ -82,44 +83,27 @@ static void draw_axes(SporeSvg *svg, const SporeStabilityMap *map) {
   spore_svg_add(svg, "</g>\n");
 }
 
-/* The body whose own explicit method bears the smallest steps of the scene; NULL: none has a limit. */
-static const SporeStabilityLimit *narrowest(const SporeStabilityReport *report) {
-  const SporeStabilityLimit *found = NULL;
-  double least = HUGE_VAL;
-  for (size_t i = 0; i < report->limit_count; i++) {
-    const SporeStabilityLimit *limit = &report->limits[i];
-    double part = limit->predicted_s / limit->step_s;
-    if (!limit->own || !(limit->predicted_s > 0) || !(part < least)) continue;
-    least = part;
-    found = limit;
-  }
-  return found;
-}
-
 /* Where a step lies along the columns; steps grow by one factor from column to column. */
 static double place_step(const SporeStabilityMap *map, double step_s) {
   double ratio = map->columns > 1 ? log(map->time_step_s[1] / map->time_step_s[0]) : 1;
-  double column = 0.5 + log(step_s / map->time_step_s[0]) / ratio;
-  return LEFT + CELL_WIDTH * fmin(fmax(column, 0), (double)map->columns);
+  return LEFT + CELL_WIDTH * (0.5 + log(step_s / map->time_step_s[0]) / ratio);
 }
 
-/* The largest step by linear theory falls with the root of the stiffness. False: no body has one. */
-static bool draw_limit(SporeSvg *svg, const SporeStabilityReport *report, const SporeStabilityLimit *limit) {
-  const SporeStabilityMap *map = &report->map;
-  if (!limit) return false;
-  double scene_s = limit->predicted_s * report->time_step_s / limit->step_s, last_x = 0, last_y = 0;
-  for (size_t r = 0; r < map->rows; r++) {
-    double x = place_step(map, scene_s / sqrt(map->stiffness[r])), y = top_of_row(map, r) + CELL_HEIGHT / 2;
-    if (r > 0) {
-      spore_svg_line(svg, last_x, last_y, x, y, " stroke=\"#ffffff\" stroke-width=\"6\"");
-      spore_svg_line(svg, last_x, last_y, x, y, " stroke=\"#000000\" stroke-width=\"2.5\" stroke-dasharray=\"9 4\"");
+/* The largest step by theory, row by row, on white, so that it is seen on dark cells. */
+static void draw_limit(SporeSvg *svg, const SporeStabilityMap *map) {
+  static const char *const strokes[] = {" stroke=\"#ffffff\" stroke-width=\"6\"", LIMIT_STROKE};
+  spore_svg_add(svg, "<g clip-path=\"url(#cells)\">\n");
+  for (int k = 0; k < 2; k++)
+    for (size_t r = 1; r < map->rows; r++) {
+      double before = map->limit_s[r - 1], here = map->limit_s[r];
+      if (!(before > 0) || !(here > 0) || isinf(before) || isinf(here)) continue;
+      spore_svg_line(svg, place_step(map, before), top_of_row(map, r - 1) + CELL_HEIGHT / 2, place_step(map, here),
+                     top_of_row(map, r) + CELL_HEIGHT / 2, strokes[k]);
     }
-    last_x = x, last_y = y;
-  }
-  return true;
+  spore_svg_add(svg, "</g>\n");
 }
 
-static void draw_legend(SporeSvg *svg, const SporeStabilityReport *report, const SporeStabilityLimit *limit) {
+static void draw_legend(SporeSvg *svg, const SporeStabilityReport *report) {
   static const char *const words[] = {N_("stable"), N_("recovered, and said so"), N_("refused, with the limit"),
                                       N_("failed")};
   const SporeStabilityMap *map = &report->map;
@@ -130,9 +114,10 @@ static void draw_legend(SporeSvg *svg, const SporeStabilityReport *report, const
   }
   spore_svg_rectangle(svg, x, y, 34, 22, " fill=\"none\" stroke=\"#000000\" stroke-width=\"3\"");
   spore_svg_text(svg, x + 44, y + 15, "", _("the scene as written"));
+  const SporeStabilityLimit *limit = map->narrowest;
   if (!limit) return;
   char text[200];
-  spore_svg_line(svg, x, y + 41, x + 34, y + 41, " stroke=\"#000000\" stroke-width=\"2.5\" stroke-dasharray=\"9 4\"");
+  spore_svg_line(svg, x, y + 41, x + 34, y + 41, LIMIT_STROKE);
   spore_svg_text(svg, x + 44, y + 45, "", _("largest step by theory:"));
   snprintf(text, sizeof text, "%s, %s", limit->body, spore_integrator_names[limit->method]);
   spore_svg_text(svg, x + 44, y + 45 + LINE_OF_TEXT, "", text);
@@ -149,6 +134,9 @@ char *spore_stability_map_svg(const SporeStabilityReport *report, const char *ti
   SporeSvg svg = {0};
   spore_svg_open(&svg, title, LEFT + CELL_WIDTH * (double)map->columns + RIGHT, fmax(height, 300));
   spore_svg_add(&svg, patterns);
+  spore_svg_add(&svg, "<clipPath id=\"cells\">");
+  spore_svg_rectangle(&svg, LEFT, TOP, CELL_WIDTH * (double)map->columns, CELL_HEIGHT * (double)map->rows, "");
+  spore_svg_add(&svg, "</clipPath>\n");
   for (size_t r = 0; r < map->rows; r++)
     for (size_t c = 0; c < map->columns; c++)
       draw_cell(&svg, LEFT + CELL_WIDTH * (double)c, top_of_row(map, r), CELL_WIDTH, CELL_HEIGHT, map->cells[r][c],
@@ -157,10 +145,9 @@ char *spore_stability_map_svg(const SporeStabilityReport *report, const char *ti
     if (map->time_step_s[c] == report->time_step_s)
       spore_svg_rectangle(&svg, LEFT + CELL_WIDTH * (double)c, top_of_row(map, map->rows / 2), CELL_WIDTH, CELL_HEIGHT,
                           " fill=\"none\" stroke=\"#000000\" stroke-width=\"3\"");
-  const SporeStabilityLimit *limit = narrowest(report);
-  if (!draw_limit(&svg, report, limit)) limit = NULL;
+  if (map->narrowest) draw_limit(&svg, map);
   draw_axes(&svg, map);
-  draw_legend(&svg, report, limit);
+  draw_legend(&svg, report);
   snprintf(note, sizeof note, _("%zu steps in each cell"), map->steps);
   spore_svg_text(&svg, LEFT, TOP + CELL_HEIGHT * (double)map->rows + 3.6 * LINE_OF_TEXT, " fill=\"#444444\"", note);
   spore_svg_add(&svg, "</svg>\n");
