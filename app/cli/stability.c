@@ -60,10 +60,11 @@ static void say_limit(SporeCli *cli, const SporeStabilityLimit *limit, int width
   g_autofree char *predicted = step_text(limit->predicted_s), *safe = step_text(limit->found.safe_s),
                   *own = step_text(limit->step_s), *unsafe = step_text(limit->found.unsafe_s);
   g_autofree char *beyond =
-      isinf(limit->found.unsafe_s)
-          ? g_strdup(limit->found.safe_s >= SPORE_STABILITY_LARGEST_STEP_S ? _("no scene may have a larger one")
-                                                                           : _("larger ones were not tried"))
-          : g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe);
+      limit->predicted_s == 0
+          ? g_strdup_printf(_("%s at any step, and is seen from %s"), outcome_text(limit->beyond), unsafe)
+      : !isinf(limit->found.unsafe_s) ? g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe)
+      : limit->found.safe_s >= SPORE_STABILITY_LARGEST_STEP_S ? g_strdup(_("no scene may have a larger one"))
+                                                              : g_strdup(_("larger ones were not tried"));
   const char *note = !limit->own                              ? ""
                      : limit->step_s <= limit->found.safe_s   ? _("; the scene's")
                      : limit->step_s >= limit->found.unsafe_s ? _("; the scene's, and its step is too large")
@@ -123,7 +124,7 @@ static void report_left_out(SporeCli *cli, const SporeStabilityReport *report) {
   for (gsize i = 0; i < report->left_out_count; i++) {
     spore_cli_open(cli, NULL);
     spore_cli_text(cli, "what", report->left_out[i].what);
-    spore_cli_text(cli, "why", report->left_out[i].why);
+    spore_cli_text(cli, "reason", report->left_out[i].why);
     spore_cli_close(cli);
     spore_cli_say(cli, "  %s: %s\n", report->left_out[i].why, report->left_out[i].what);
   }
@@ -209,7 +210,7 @@ int spore_command_stability(SporeCli *cli, int argc, char **argv) {
           "mode; null: any), safe_s (largest tried that is safe; 0: none), unsafe_s (smallest tried that "
           "is not; null: none); own (the method is the scene's)")},
       {"map", N_("verdicts by stiffness (rows, factors) and time_step_s (columns); null where left out")},
-      {"left_out", N_("what was not tried, and why")},
+      {"left_out", N_("what was not tried, and the reason")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"stability",
                                         "SCENE",

@@ -91,10 +91,10 @@ static const char *name_of(const SporeWorld *world, uint32_t body) {
 static void add_mended(Detail *detail, const SporeMonitor *monitor, const SporePushRun *run) {
   if (run->judged && run->gain_before > GAIN) add(detail, _("energy rose by %.2g %% before"), 100 * run->gain_before);
   if (monitor->held_inputs > 0)
-    add(detail, _("%llu inputs of devices were held, or followed more slowly"),
+    add(detail, _("inputs of devices that were held, or followed more slowly: %llu"),
         (unsigned long long)monitor->held_inputs);
   if (monitor->recoveries > 0)
-    add(detail, _("%llu steps were taken again, in %llu parts"), (unsigned long long)monitor->recoveries,
+    add(detail, _("steps taken again: %llu, in %llu parts"), (unsigned long long)monitor->recoveries,
         (unsigned long long)monitor->substeps);
 }
 
@@ -103,7 +103,7 @@ static void add_stable(Detail *detail, const SporeMonitor *monitor, const SporeP
   else if (run->gain > 0) add(detail, _("all solved; energy at most %.2g %% above start and work"), 100 * run->gain);
   else add(detail, _("all solved; energy never above start and work"));
   unsigned long long parted = monitor->broken_links + monitor->lost_holds + monitor->torn_springs;
-  if (parted > 0) add(detail, _("%llu links, holds or springs gave way"), parted);
+  if (parted > 0) add(detail, _("links, holds or springs that gave way: %llu"), parted);
 }
 
 SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush *push, const SporePushRun *run,
