@@ -36,6 +36,7 @@ typedef struct Study {
   SporeStabilityReport *report;
   uint64_t begun_ns;
   double done, all; /* pieces of work, for the progress */
+  bool spent;       /* the world of the scene was changed so that no reset helps */
   SporeError *error;
 } Study;
 
@@ -101,6 +102,7 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   SporeStabilityReport *report = study->report;
   SporeStabilityCase *into = &report->cases[report->case_count];
   SporePushRun run;
+  study->spent |= push->jump != SPORE_JUMP_NONE;
   if (!spore_push_run(study->scene, world, push, length_of(study, push), &run)) return no_memory(study->error);
   if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
   if (run.out_of_time) {
@@ -169,7 +171,8 @@ static bool try_case(Study *study, SporeWorld *world, const SporePush *push) {
 static bool try_cases(Study *study, SporeWorld **world) {
   for (size_t i = 1; i < spore_push_count; i++) {
     if (!go_on(study, 1, _(spore_pushes[i].label)) || !try_case(study, *world, &spore_pushes[i])) return false;
-    if (spore_pushes[i].jump == SPORE_JUMP_NONE) continue;
+    if (!study->spent) continue;
+    study->spent = false;
     study->scene->drop(study->scene->data, *world);
     *world = study->scene->make(study->scene->data, &spore_pushes[0].change, study->error);
     if (!*world) return false;
