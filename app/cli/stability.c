@@ -45,10 +45,11 @@ static void report_cases(SporeCli *cli, const SporeStabilityReport *report) {
   spore_cli_close_array(cli);
 }
 
-/* A step in ms; "any" above what a scene may have, "none" where no step is safe. */
+/* A step in ms or us; "any" where there is no limit, "none" where no step is safe. */
 static char *step_text(double step_s) {
   if (isinf(step_s)) return g_strdup(_("any"));
-  return step_s > 0 ? g_strdup_printf("%.3g ms", 1e3 * step_s) : g_strdup(_("none"));
+  if (step_s == 0) return g_strdup(_("none"));
+  return step_s < 1e-5 ? g_strdup_printf("%.3g us", 1e6 * step_s) : g_strdup_printf("%.3g ms", 1e3 * step_s);
 }
 
 static const char *outcome_text(SporeMethodOutcome outcome) {
@@ -56,15 +57,19 @@ static const char *outcome_text(SporeMethodOutcome outcome) {
   return outcome == SPORE_METHOD_NOT_FINITE ? _("not finite") : _("energy grows");
 }
 
+/* What is known of larger steps than the largest safe one. */
+static char *beyond_text(const SporeStabilityLimit *limit) {
+  g_autofree char *unsafe = step_text(limit->found.unsafe_s);
+  if (limit->method == SPORE_INTEGRATOR_EXPLICIT_EULER && limit->found.safe_s > 1.5 * limit->predicted_s)
+    return g_strdup_printf(_("below, it grows too slowly for %zu steps to show"), limit->steps);
+  if (!isinf(limit->found.unsafe_s)) return g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe);
+  return g_strdup(limit->found.safe_s >= SPORE_STABILITY_LARGEST_STEP_S ? _("no scene may have a larger one")
+                                                                        : _("larger ones were not tried"));
+}
+
 static void say_limit(SporeCli *cli, const SporeStabilityLimit *limit, int width) {
   g_autofree char *predicted = step_text(limit->predicted_s), *safe = step_text(limit->found.safe_s),
-                  *own = step_text(limit->step_s), *unsafe = step_text(limit->found.unsafe_s);
-  g_autofree char *beyond =
-      limit->predicted_s == 0
-          ? g_strdup_printf(_("%s at any step, and is seen from %s"), outcome_text(limit->beyond), unsafe)
-      : !isinf(limit->found.unsafe_s) ? g_strdup_printf(_("%s at %s"), outcome_text(limit->beyond), unsafe)
-      : limit->found.safe_s >= SPORE_STABILITY_LARGEST_STEP_S ? g_strdup(_("no scene may have a larger one"))
-                                                              : g_strdup(_("larger ones were not tried"));
+                  *own = step_text(limit->step_s), *beyond = beyond_text(limit);
   const char *note = !limit->own                              ? ""
                      : limit->step_s <= limit->found.safe_s   ? _("; the scene's")
                      : limit->step_s >= limit->found.unsafe_s ? _("; the scene's, and its step is too large")

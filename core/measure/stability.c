@@ -167,9 +167,12 @@ static bool try_case(Study *study, SporeWorld *world, const SporePush *push) {
   return done;
 }
 
-/* A jump of parameters outlasts a reset: the world is made anew after it. */
-static bool try_cases(Study *study, SporeWorld **world) {
+/* Those that are run with `quick`, or the others. A jump of parameters outlasts a reset: the world is made anew after
+ * it.
+ */
+static bool try_cases(Study *study, SporeWorld **world, bool quick) {
   for (size_t i = 1; i < spore_push_count; i++) {
+    if (spore_pushes[i].quick != quick) continue;
     if (!go_on(study, 1, _(spore_pushes[i].label)) || !try_case(study, *world, &spore_pushes[i])) return false;
     if (!study->spent) continue;
     study->spent = false;
@@ -418,7 +421,8 @@ static bool run_study(Study *study, SporeWorld **world) {
   study->all = (double)(spore_push_count + spore_world_body_count(*world)) +
                (study->options->map ? 0.3 * SPORE_STABILITY_COLUMNS * SPORE_STABILITY_ROWS : 0);
   return go_on(study, 0, _(spore_pushes[0].label)) && try_case(study, *world, &spore_pushes[0]) &&
-         find_limits(study, *world) && try_cases(study, world) && make_map(study);
+         find_limits(study, *world) && try_cases(study, world, true) && try_cases(study, world, false) &&
+         make_map(study);
 }
 
 SporeStabilityReport *spore_stability_study(const SporeStabilityScene *scene, const SporeStabilityOptions *options,

@@ -68,7 +68,12 @@ static bool fails(const SporeUnsolved *entry, const SporePush *push) {
 
 static void add_entry(Detail *detail, const SporeWorld *world, const SporeUnsolved *entry, size_t steps) {
   const char *body = spore_world_body_name(world, entry->body);
-  if (entry->unit)
+  const SporeModel *model = spore_world_body_model(world, entry->body);
+  const char *notice = entry->kind == SPORE_UNSOLVED_MODEL && model->type->notice
+                           ? model->type->notice(model, spore_world_q(world, entry->body))
+                           : NULL;
+  if (notice) add(detail, _("%s: %s, in %llu of %zu steps"), body, notice, (unsigned long long)entry->steps, steps);
+  else if (entry->unit)
     add(detail, _("%s: %s, in %llu of %zu steps (worst %.2g%s%s): %s"), body, entry->cause,
         (unsigned long long)entry->steps, steps, entry->worst, *entry->unit ? " " : "", entry->unit, entry->remedy);
   else

@@ -4,13 +4,14 @@
 #include "core/base/memory.h"
 #include "core/sim/solve/island_system.h"
 
-#define PUSH                                                                                                           \
-  1e-6 /* of the body's extent: what moves while its fastest mode turns by 1 rad; small, so that the                   \
-          body's forces are nearly linear, and far above rounding */
-#define SLOWEST_PUSH 1e-3 /* of the body's extent in a second: where nothing is stiff */
-#define GAIN 0.01         /* of the energy at work */
-#define SWING 2           /* times the gains of the first half of the steps */
-#define SWING_MOST 1e3    /* times the energy at work; that of a mode swings so far at .998 of its largest step */
+/* Parts of the body's extent: what moves while the fastest mode turns by 1 rad, in a step at most, and in a second at
+ * least. Small, so that the body's forces are nearly linear, and far above rounding. */
+#define PUSH 1e-6
+#define PUSH_OF_STEP 1e-3
+#define PUSH_OF_SECOND 1e-3
+#define GAIN 0.01      /* of the energy at work */
+#define SWING 2        /* times the gains of the first half of the steps */
+#define SWING_MOST 1e3 /* times the energy at work; that of a mode swings so far at .998 of its largest step */
 
 typedef struct Trial {
   SporeWorld *world;
@@ -50,19 +51,42 @@ static double extent_of(const SporeBody *body, const double *q) {
   return most;
 }
 
-/* Adds a velocity to all nodes that differs from node to node, the same on every machine. */
-static void push(const SporeBody *body, double frequency, const double *q, double *v) {
+/* What is solved is pushed smoothly: its nodes come apart as a linear function of place. */
+static void push_smoothly(const SporeBody *body, double speed, double extent, const double *q, double *v) {
+  static const SporeMat3 shear = {{0.3, 0.5, -0.2, 0.1, -0.4, 0.6, -0.5, 0.2, 0.1}};
+  const SporeVec3 whole = {0.3, 0.5, -0.4};
+  for (size_t i = 0; i < body->block_count; i++) {
+    bool node = i < body->model->node_count;
+    SporeVec3 part = whole;
+    if (node) {
+      SporeVec3 arm = spore_vec3_sub(spore_vec3_load(q + 3 * i), spore_vec3_load(q));
+      part = spore_vec3_add(whole, spore_mat3_apply(shear, spore_vec3_scale(1 / extent, arm)));
+    }
+    spore_vec3_accumulate(v + 3 * i, spore_vec3_scale(node ? speed : speed / extent, part));
+  }
+}
+
+/* What is not solved is pushed so that the velocity differs from node to node, the same on every machine: the fastest
+ * modes are those that grow. */
+static void push_each(const SporeBody *body, double speed, double extent, const double *q, double *v) {
   uint32_t state = 2463534242u;
-  double extent = extent_of(body, q), least = 1e-2;
-  if (extent == 0) extent = least; /* a single node, or a frame */
-  double speed = fmax(PUSH * frequency, SLOWEST_PUSH) * extent;
   for (size_t k = 0; k < 3 * body->block_count; k++) {
     state = state * 1664525u + 1013904223u;
     double part = 2 * (double)(state >> 8) / (1 << 24) - 1;
     bool node = k / 3 < body->model->node_count;
     if (!node || is_here(body, q + 3 * (k / 3))) v[k] += part * (node ? speed : speed / extent);
   }
-  spore_pin_filter(body->held.blocks, body->held.count, v);
+}
+
+static void push(const Trial *trial, double frequency) {
+  const SporeBody *body = trial->body;
+  double extent = extent_of(body, trial->q[0]), least = 1e-2;
+  if (extent == 0) extent = least; /* a single node, or a frame */
+  double most = fmax(PUSH_OF_STEP / trial->step_s, PUSH_OF_SECOND) * extent;
+  bool solved = trial->integrator->implicit && !body->model->type->rates;
+  if (solved) push_smoothly(body, most, extent, trial->q[0], trial->v[0]);
+  else push_each(body, fmin(fmax(PUSH * frequency, PUSH_OF_SECOND) * extent, most), extent, trial->q[0], trial->v[0]);
+  spore_pin_filter(body->held.blocks, body->held.count, trial->v[0]);
 }
 
 static bool allocate(Trial *trial) {
@@ -195,7 +219,7 @@ SporeMethodResult spore_world_try_method(SporeWorld *world, uint32_t index, cons
   if (allocate(&trial) && spore_world_predict_step(world, index, how->integrator, &limit, NULL)) {
     memcpy(trial.q[0], world->state.q + body->q_offset, body->q_count * sizeof(double));
     memcpy(trial.v[0], world->state.v + body->v_offset, 3 * body->block_count * sizeof(double));
-    push(body, limit.frequency, trial.q[0], trial.v[0]);
+    push(&trial, limit.frequency);
     result = run(&trial, how->steps);
   }
   free_trial(&trial);
