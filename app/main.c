@@ -24,6 +24,7 @@ static const Command commands[] = {
     {"check", spore_command_check, N_("Say what is wrong with a scene, and the remedy")},
     {"plan", spore_command_plan, N_("Say what a scene needs, what it leaves out, and why")},
     {"accuracy", spore_command_accuracy, N_("Measure what methods and steps cost, and how wrong they are")},
+    {"stability", spore_command_stability, N_("Push a scene, and say what it bears")},
 #ifdef SPORE_HAVE_RENDER
     {"render", spore_command_render, N_("Make a picture of a scene")},
 #endif

@@ -100,6 +100,7 @@ int spore_command_render(SporeCli *cli, int argc, char **argv);
 int spore_command_run(SporeCli *cli, int argc, char **argv);
 int spore_command_schema(SporeCli *cli, int argc, char **argv);
 int spore_command_spheres(SporeCli *cli, int argc, char **argv);
+int spore_command_stability(SporeCli *cli, int argc, char **argv);
 int spore_command_surface(SporeCli *cli, int argc, char **argv);
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv);
 

@@ -46,6 +46,9 @@ typedef struct SporeIntegrator {
   bool chooses_step; /* step_s of its history is its own affair, and that of any body will do */
   bool remembers;    /* needs its SporeHistory kept */
   SporeDamping damping;
+  /* Keeps, in small enough steps, an energy near the true one: the true one swings about it without growing (Hairer,
+   * Lubich and Wanner, Acta Numerica 12, 2003, section 1). */
+  bool swings;
   /* Explicit: modes with w^2 h^2 + stable_damping d h <= stable_square stay bounded; w^2 and d are eigenvalues of
    * M^-1 K and M^-1 D. 1 of it is for contacts and links. 0: not of this form. */
   double stable_square, stable_damping;

@@ -23,6 +23,7 @@ const SporeIntegrator spore_symplectic_euler = {
     .name = "symplectic_euler",
     .doc =
         N_("First order, one force evaluation a step; conserves energy well, but needs small steps where it is stiff."),
+    .swings = true,
     .stable_square = 4,
     .stable_damping = 2,
     .shift = 1,

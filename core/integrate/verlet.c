@@ -44,6 +44,7 @@ const SporeIntegrator spore_verlet = {
     .doc = N_("Second order, one force evaluation a step; conserves energy well over any time, but needs small steps "
               "where it is stiff. For particles."),
     .remembers = true,
+    .swings = true,
     .stable_square = 4,
     .stable_damping = 4,
     .shift = 0.5,

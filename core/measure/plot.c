@@ -7,7 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/number.h"
 #include "core/base/text.h"
-#include "core/measure/text_buffer.h"
+#include "core/measure/svg.h"
 
 /* Pixels. */
 #define PANEL_WIDTH 480.
@@ -25,51 +25,8 @@ const char *const spore_plot_colours[SPORE_PLOT_COLOURS] = {"#0072b2", "#d55e00"
 /* Dashes by line, the first one whole. */
 static const char *const dashes[] = {"", "7 4", "2 3", "10 3 2 3", "4 2", "12 5"};
 
-typedef SporeTextBuffer Text;
-
-static void add_bytes(Text *text, const char *bytes, size_t size) { spore_text_add_bytes(text, bytes, size); }
-static void add(Text *text, const char *string) { spore_text_add(text, string); }
-
-static void add_escaped(Text *text, const char *string, size_t size) {
-  for (const char *end = string + size; string < end; string++) {
-    if (*string == '&') add(text, "&amp;");
-    else if (*string == '<') add(text, "&lt;");
-    else if (*string == '>') add(text, "&gt;");
-    else add_bytes(text, string, 1);
-  }
-}
-
 /* A length to a hundredth of a pixel. */
-static void add_number(Text *text, double value) { spore_text_add_number(text, round(value * 100) / 100); }
-
-/* name="value" */
-static void add_attribute(Text *text, const char *name, double value) {
-  add(text, " ");
-  add(text, name);
-  add(text, "=\"");
-  add_number(text, value);
-  add(text, "\"");
-}
-
-static void add_line(Text *text, double x1, double y1, double x2, double y2, const char *rest) {
-  add(text, "<line");
-  add_attribute(text, "x1", x1);
-  add_attribute(text, "y1", y1);
-  add_attribute(text, "x2", x2);
-  add_attribute(text, "y2", y2);
-  add(text, rest);
-  add(text, "/>\n");
-}
-
-static void add_text(Text *text, double x, double y, const char *rest, const char *content) {
-  add(text, "<text");
-  add_attribute(text, "x", x);
-  add_attribute(text, "y", y);
-  add(text, rest);
-  add(text, ">");
-  add_escaped(text, content, strlen(content));
-  add(text, "</text>\n");
-}
+static void add_number(SporeTextBuffer *text, double value) { spore_text_add_number(text, round(value * 100) / 100); }
 
 /* One direction of a panel: values low .. high lie at pixels from .. to. */
 typedef struct Axis {
@@ -147,33 +104,33 @@ static void format_tick(double value, char text[SPORE_NUMBER_TEXT]) {
 #define GRID " stroke=\"#dddddd\" stroke-width=\"1\""
 #define FRAME " stroke=\"#444444\" stroke-width=\"1\""
 
-static void draw_axes(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_axes(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
   char number[SPORE_NUMBER_TEXT];
   double last = -HUGE_VAL;
   for (size_t i = 0; i < x->ticks; i++) {
     double at = place(x, x->tick[i]);
-    add_line(text, at, y->from, at, y->to, GRID);
+    spore_svg_line(text, at, y->from, at, y->to, GRID);
     if (at - last < 26) continue; /* no room for its number */
     format_tick(x->tick[i], number);
-    add_text(text, last = at, y->from + LINE_OF_TEXT, " text-anchor=\"middle\"", number);
+    spore_svg_text(text, last = at, y->from + LINE_OF_TEXT, " text-anchor=\"middle\"", number);
   }
   for (size_t i = 0; i < y->ticks; i++) {
     double at = place(y, y->tick[i]);
-    add_line(text, x->from, at, x->to, at, GRID);
+    spore_svg_line(text, x->from, at, x->to, at, GRID);
     format_tick(y->tick[i], number);
-    add_text(text, x->from - 7, at + 4, " text-anchor=\"end\"", number);
+    spore_svg_text(text, x->from - 7, at + 4, " text-anchor=\"end\"", number);
   }
-  add_line(text, x->from, y->from, x->to, y->from, FRAME);
-  add_line(text, x->from, y->from, x->from, y->to, FRAME);
-  add_text(text, (x->from + x->to) / 2, y->from + 2.3 * LINE_OF_TEXT, " text-anchor=\"middle\"", panel->x_label);
+  spore_svg_line(text, x->from, y->from, x->to, y->from, FRAME);
+  spore_svg_line(text, x->from, y->from, x->from, y->to, FRAME);
+  spore_svg_text(text, (x->from + x->to) / 2, y->from + 2.3 * LINE_OF_TEXT, " text-anchor=\"middle\"", panel->x_label);
   double middle = (y->from + y->to) / 2, side = x->from - LEFT + 16;
-  add(text, "<g transform=\"rotate(-90 ");
+  spore_text_add(text, "<g transform=\"rotate(-90 ");
   add_number(text, side);
-  add(text, " ");
+  spore_text_add(text, " ");
   add_number(text, middle);
-  add(text, ")\">");
-  add_text(text, side, middle, " text-anchor=\"middle\"", panel->y_label);
-  add(text, "</g>\n");
+  spore_text_add(text, ")\">");
+  spore_svg_text(text, side, middle, " text-anchor=\"middle\"", panel->y_label);
+  spore_text_add(text, "</g>\n");
 }
 
 /* Shape of a line's points about (0, 0), of radius 1. The first line's is a circle, which is drawn as such. */
@@ -184,58 +141,59 @@ static const char *const shapes[] = {"",
                                      "M0 1.15L1.05-.7H-1.05Z",
                                      "M-1.2-.35H-.35V-1.2H.35V-.35H1.2V.35H.35V1.2H-.35V.35H-1.2Z"};
 
-static void draw_point(Text *text, double x, double y, double radius, size_t number, bool hollow) {
+static void draw_point(SporeTextBuffer *text, double x, double y, double radius, size_t number, bool hollow) {
   const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS], *shape = shapes[number % SPORE_PLOT_COLOURS];
   if (*shape) {
-    add(text, "<path d=\"");
-    add(text, shape);
-    add(text, "\" transform=\"translate(");
+    spore_text_add(text, "<path d=\"");
+    spore_text_add(text, shape);
+    spore_text_add(text, "\" transform=\"translate(");
     add_number(text, x);
-    add(text, " ");
+    spore_text_add(text, " ");
     add_number(text, y);
-    add(text, ") scale(");
+    spore_text_add(text, ") scale(");
     add_number(text, radius);
-    add(text, ")\"");
+    spore_text_add(text, ")\"");
   } else {
-    add(text, "<circle");
-    add_attribute(text, "r", radius);
-    add_attribute(text, "cx", x);
-    add_attribute(text, "cy", y);
+    spore_text_add(text, "<circle");
+    spore_svg_attribute(text, "r", radius);
+    spore_svg_attribute(text, "cx", x);
+    spore_svg_attribute(text, "cy", y);
   }
-  add(text, " fill=\"");
-  add(text, hollow ? "white" : colour);
-  add(text, "\" stroke=\"");
-  add(text, colour);
-  add(text, *shape ? "\" stroke-width=\"0.35\"/>\n" : "\" stroke-width=\"1.3\"/>\n");
+  spore_text_add(text, " fill=\"");
+  spore_text_add(text, hollow ? "white" : colour);
+  spore_text_add(text, "\" stroke=\"");
+  spore_text_add(text, colour);
+  spore_text_add(text, *shape ? "\" stroke-width=\"0.35\"/>\n" : "\" stroke-width=\"1.3\"/>\n");
 }
 
-static void draw_ring(Text *text, double x, double y) {
-  add(text, "<ellipse rx=\"8\" ry=\"8\" fill=\"none\" stroke=\"#222222\" stroke-width=\"1.3\" transform=\"translate(");
+static void draw_ring(SporeTextBuffer *text, double x, double y) {
+  spore_text_add(
+      text, "<ellipse rx=\"8\" ry=\"8\" fill=\"none\" stroke=\"#222222\" stroke-width=\"1.3\" transform=\"translate(");
   add_number(text, x);
-  add(text, " ");
+  spore_text_add(text, " ");
   add_number(text, y);
-  add(text, ")\"/>\n");
+  spore_text_add(text, ")\"/>\n");
 }
 
-static void draw_line(Text *text, const Axis *x, const Axis *y, const SporePlotLine *line, size_t number) {
+static void draw_line(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotLine *line, size_t number) {
   bool first = true;
   if (!line->scattered) {
-    add(text, "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"");
-    add(text, spore_plot_colours[number % SPORE_PLOT_COLOURS]);
+    spore_text_add(text, "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"");
+    spore_text_add(text, spore_plot_colours[number % SPORE_PLOT_COLOURS]);
     if (number % SPORE_PLOT_COLOURS) {
-      add(text, "\" stroke-dasharray=\"");
-      add(text, dashes[number % SPORE_PLOT_COLOURS]);
+      spore_text_add(text, "\" stroke-dasharray=\"");
+      spore_text_add(text, dashes[number % SPORE_PLOT_COLOURS]);
     }
-    add(text, "\" points=\"");
+    spore_text_add(text, "\" points=\"");
     for (size_t i = 0; i < line->count; i++) {
       if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
-      if (!first) add(text, " ");
+      if (!first) spore_text_add(text, " ");
       first = false;
       add_number(text, place(x, line->x[i]));
-      add(text, ",");
+      spore_text_add(text, ",");
       add_number(text, place(y, line->y[i]));
     }
-    add(text, "\"/>\n");
+    spore_text_add(text, "\"/>\n");
   }
   for (size_t i = 0; (line->scattered || line->count <= POINTS_MOST) && i < line->count; i++) {
     if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
@@ -260,7 +218,7 @@ static bool find_end(const Axis *x, const Axis *y, const SporePlotLine *line, En
 }
 
 /* Labels from the top down, none on another one. */
-static void draw_end_labels(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_end_labels(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
   double last = -HUGE_VAL, last_y = -HUGE_VAL;
   size_t last_line = 0;
   for (size_t drawn = 0; drawn < panel->line_count; drawn++) {
@@ -275,34 +233,35 @@ static void draw_end_labels(Text *text, const Axis *x, const Axis *y, const Spor
     if (!best.text) return;
     last_y = best.y, last_line = best_line;
     last = fmax(best.y + 4, last + 14);
-    add_text(text, x->to + 12, last, " font-size=\"11\"", best.text);
-    add_line(text, best.x + 6, best.y, x->to + 9, last - 4, " stroke=\"#999999\" stroke-width=\"0.7\"");
+    spore_svg_text(text, x->to + 12, last, " font-size=\"11\"", best.text);
+    spore_svg_line(text, best.x + 6, best.y, x->to + 9, last - 4, " stroke=\"#999999\" stroke-width=\"0.7\"");
   }
 }
 
-static void draw_shade(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_shade(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
   if (!(panel->shade_below > y->low)) return;
   double top = panel->shade_below < y->high ? place(y, panel->shade_below) : y->to;
-  add(text, "<rect fill=\"#e8e8e8\"");
-  add_attribute(text, "x", x->from);
-  add_attribute(text, "y", top);
-  add_attribute(text, "width", x->to - x->from);
-  add_attribute(text, "height", y->from - top);
-  add(text, "/>\n");
+  spore_text_add(text, "<rect fill=\"#e8e8e8\"");
+  spore_svg_attribute(text, "x", x->from);
+  spore_svg_attribute(text, "y", top);
+  spore_svg_attribute(text, "width", x->to - x->from);
+  spore_svg_attribute(text, "height", y->from - top);
+  spore_text_add(text, "/>\n");
   if (panel->shade_label)
-    add_text(text, x->from + 6, y->from - 7, " fill=\"#555555\" font-size=\"11\"", panel->shade_label);
+    spore_svg_text(text, x->from + 6, y->from - 7, " fill=\"#555555\" font-size=\"11\"", panel->shade_label);
 }
 
 /* The label stands on the side that has room. */
-static void draw_mark(Text *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_mark(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
   if (!panel->mark_label || !shows(x, panel->mark_x)) return;
   double at = place(x, panel->mark_x);
   bool right = at < (x->from + x->to) / 2;
-  add_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
+  spore_svg_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
   /* Drawn twice, first white and thick, so that the label is legible over lines. */
   const char *ways[2][2] = {{" stroke=\"white\" stroke-width=\"5\" text-anchor=\"start\"", " text-anchor=\"start\""},
                             {" stroke=\"white\" stroke-width=\"5\" text-anchor=\"end\"", " text-anchor=\"end\""}};
-  for (int k = 0; k < 2; k++) add_text(text, at + (right ? 6 : -6), y->to + 14, ways[!right][k], panel->mark_label);
+  for (int k = 0; k < 2; k++)
+    spore_svg_text(text, at + (right ? 6 : -6), y->to + 14, ways[!right][k], panel->mark_label);
 }
 
 /* Approximate width of a label, by its number of characters. */
@@ -320,7 +279,7 @@ static double room_for_labels(const SporePlotPanel *panel) {
   return most;
 }
 
-static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
+static bool draw_panel(SporeTextBuffer *text, const SporePlotPanel *panel, double left) {
   Axis x = {
       .from = left + LEFT, .to = left + PANEL_WIDTH - RIGHT - room_for_labels(panel), .logarithmic = panel->log_x};
   Axis y = {.from = HEIGHT - BOTTOM, .to = TOP, .logarithmic = panel->log_y};
@@ -333,66 +292,51 @@ static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
   return true;
 }
 
-static void draw_legend(Text *text, const SporePlotPanel *panel) {
+static void draw_legend(SporeTextBuffer *text, const SporePlotPanel *panel) {
   double x = LEFT;
   for (size_t l = 0; l < panel->line_count; l++) {
     if (l % SPORE_PLOT_COLOURS) {
-      add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
-      add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
-      add(text, "\" stroke-dasharray=\"");
-      add(text, dashes[l % SPORE_PLOT_COLOURS]);
-      add(text, "\" d=\"M");
+      spore_text_add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
+      spore_text_add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
+      spore_text_add(text, "\" stroke-dasharray=\"");
+      spore_text_add(text, dashes[l % SPORE_PLOT_COLOURS]);
+      spore_text_add(text, "\" d=\"M");
       add_number(text, x - 6);
-      add(text, " ");
+      spore_text_add(text, " ");
       add_number(text, TOP - 27);
-      add(text, "h22\"/>\n");
+      spore_text_add(text, "h22\"/>\n");
     }
     draw_point(text, x + 5, TOP - 27, 4.5, l, false);
-    add_text(text, x + 21, TOP - 23, "", panel->lines[l].label);
+    spore_svg_text(text, x + 21, TOP - 23, "", panel->lines[l].label);
     x += 44 + width_of(panel->lines[l].label);
   }
 }
 
 /* Lines of the note, the last one at the bottom. */
-static void draw_note(Text *text, const char *note) {
+static void draw_note(SporeTextBuffer *text, const char *note) {
   double y = HEIGHT - 10;
   for (const char *c = note; *c; c++) y -= *c == '\n' ? LINE_OF_TEXT : 0;
   for (const char *end; note; note = *end ? end + 1 : NULL, y += LINE_OF_TEXT) {
     end = strchr(note, '\n');
     if (!end) end = note + strlen(note);
-    add(text, "<text fill=\"#444444\"");
-    add_attribute(text, "x", LEFT);
-    add_attribute(text, "y", y);
-    add(text, ">");
-    add_escaped(text, note, (size_t)(end - note));
-    add(text, "</text>\n");
+    spore_text_add(text, "<text fill=\"#444444\"");
+    spore_svg_attribute(text, "x", LEFT);
+    spore_svg_attribute(text, "y", y);
+    spore_text_add(text, ">");
+    spore_svg_escaped(text, note, (size_t)(end - note));
+    spore_text_add(text, "</text>\n");
   }
-}
-
-static void open_document(Text *text, const char *title, double width) {
-  add(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  add_attribute(text, "width", width);
-  add_attribute(text, "height", HEIGHT);
-  add(text, " viewBox=\"0 0 ");
-  add_number(text, width);
-  add(text, " ");
-  add_number(text, HEIGHT);
-  add(text, "\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"12\" fill=\"#222222\">\n"
-            "<title>");
-  add_escaped(text, title, strlen(title));
-  add(text, "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n");
-  add_text(text, LEFT, 28, " font-size=\"16\" font-weight=\"bold\"", title);
 }
 
 char *spore_plot_svg(const char *title, const char *note, const SporePlotPanel *panels, size_t panel_count,
                      SporeError *error) {
-  Text text = {0};
+  SporeTextBuffer text = {0};
   bool any = false;
-  open_document(&text, title, PANEL_WIDTH * (double)(panel_count ? panel_count : 1));
+  spore_svg_open(&text, title, PANEL_WIDTH * (double)(panel_count ? panel_count : 1), HEIGHT);
   for (size_t p = 0; p < panel_count; p++) any |= draw_panel(&text, &panels[p], PANEL_WIDTH * (double)p);
   if (panel_count) draw_legend(&text, &panels[0]);
   if (note) draw_note(&text, note);
-  add(&text, "</svg>\n");
+  spore_text_add(&text, "</svg>\n");
   if (any && !text.failed) return text.bytes;
   spore_free(text.bytes);
   if (text.failed)

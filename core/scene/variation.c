@@ -45,8 +45,9 @@ static gboolean scale(SporeDocument *copy, SporeObject *model, const char *const
   return TRUE;
 }
 
+static const char *const stiffnesses[] = {"Pa", "N/m", "N/m^2", "N/m^3", NULL};
+
 static gboolean vary_model(SporeDocument *copy, SporeObject *model, const SporeVariation *variation, GError **error) {
-  static const char *const stiffnesses[] = {"Pa", "N/m", "N/m^2", "N/m^3", NULL};
   static const char *const masses[] = {"kg", "kg/m", "kg/m^2", "kg/m^3", NULL};
   return scale(copy, model, stiffnesses, variation->stiffness, error) &&
          scale(copy, model, masses, variation->mass, error);
@@ -124,4 +125,27 @@ SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariat
       vary(copy, variation, error) ? spore_simulation_new(copy, pool, input, cancel, error) : NULL;
   spore_document_free(copy);
   return simulation;
+}
+
+/* Sends a property of the object with one of these units; all of the object's properties go with it. */
+static gboolean send(SporeDocument *copy, SporeObject *object, const char *const *units, SporeSimulation *simulation) {
+  const SporeParameterTable *table = object ? spore_object_type(object)->table : NULL;
+  for (guint p = 0; table && p < table->count; p++)
+    if (table->parameters[p].type == SPORE_REAL && is_one_of(table->parameters[p].unit, units))
+      return spore_simulation_apply(simulation, copy, object, p);
+  return FALSE;
+}
+
+gboolean spore_variation_apply(SporeDocument *document, const SporeVariation *variation, SporeSimulation *simulation) {
+  SporeDocument *copy = spore_document_copy(document);
+  SporeObject *bodies = spore_document_section(copy, "bodies");
+  gboolean any = FALSE, varied = vary(copy, variation, NULL);
+  for (guint i = 0; varied && i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i), *mechanical = spore_object_child_of(body, "mechanical");
+    if (variation->stiffness > 0 && mechanical && spore_object_child_count(mechanical) > 0)
+      any |= send(copy, spore_object_child(mechanical, 0), stiffnesses, simulation);
+    if (variation->contact > 0) any |= send(copy, spore_object_child_of(body, "collision"), stiffnesses, simulation);
+  }
+  spore_document_free(copy);
+  return any;
 }

@@ -25,4 +25,8 @@ typedef struct SporeVariation {
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error);
 
+/* Sends the variation's factors on stiffness and contacts to a running simulation of the document. TRUE: some body took
+ * one; a model whose parameters cannot change while it runs does not. */
+gboolean spore_variation_apply(SporeDocument *document, const SporeVariation *variation, SporeSimulation *simulation);
+
 #endif

@@ -94,6 +94,11 @@ void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *devic
   if (body < world->body_count) world->bodies[body].device.device = device;
 }
 
+SporeDevice *spore_world_device(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].device.device;
+}
+
 const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t index, double *time_s) {
   assert(index < world->body_count);
   assert(time_s);

@@ -138,6 +138,8 @@ void spore_world_reset(SporeWorld *world);
 
 /* Sets the device that moves an active body. The device is borrowed. NULL: the body stays where it is. */
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device);
+/* The device that moves an active body; NULL: none. */
+SporeDevice *spore_world_device(const SporeWorld *world, uint32_t body);
 
 /* The input that the last step took from the device of an active body, for recording. The guard has checked that input.
  * *time_s: the simulated time of the input. NULL: the body has no device, or the device has not given any input yet. */
@@ -392,9 +394,27 @@ typedef struct SporeMonitor {
 } SporeMonitor;
 /* The monitor; owned by the world. */
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
+/* Why a step of a body does not count as solved. The sentences are in state/unsolved.c. */
+typedef enum SporeUnsolvedCause {
+  SPORE_UNSOLVED_RESIDUAL, /* figure: the relative residual */
+  SPORE_UNSOLVED_ROUNDING, /* the same, where rounding alone explains it */
+  SPORE_UNSOLVED_FRICTION, /* friction was left out; no figure */
+  SPORE_UNSOLVED_RETAKEN,  /* a step that went wrong was taken again in smaller ones; no figure */
+  SPORE_UNSOLVED_STOOD_IN, /* another integrator than the scene's took the step; no figure */
+  SPORE_UNSOLVED_MODEL,    /* the model capped or mended something, or is not meant for its state; no figure */
+  SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
+  SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
+  SPORE_UNSOLVED_PASSED,   /* a contact did not hold the body; figure: its speed, m/s */
+  SPORE_UNSOLVED_LEFT_OUT, /* contacts had no room; figure: number of contacts, of all bodies together */
+  SPORE_UNSOLVED_ENERGY,   /* energy out of nothing, as a share of the energy at work */
+  SPORE_UNSOLVED_HALVES,   /* how far a step and its halves are apart, as a share of the speed */
+  SPORE_UNSOLVED_TURNED,   /* a frame turned further than its turning is followed; figure: in a step, rad */
+  SPORE_UNSOLVED_CAUSES
+} SporeUnsolvedCause;
 /* Steps of a body that were not solved as the scene is written, by one cause. */
 typedef struct SporeUnsolved {
   uint32_t body;
+  SporeUnsolvedCause kind;
   uint64_t steps;             /* in which the cause was met, since time 0 */
   double worst;               /* the largest figure of the cause so far, in `unit` */
   const char *unit;           /* "": a ratio; NULL: the cause has no figure */

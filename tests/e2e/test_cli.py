@@ -104,7 +104,7 @@ def soft_ball():
 def help_lists_commands():
     """help lists every command; no command and unknown ones are usage errors."""
     text = spore("--help").stdout
-    for name in ("run", "check", "plan", "import", "edit", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
+    for name in ("run", "check", "plan", "stability", "import", "edit", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
         assert f"\n  {name} " in text
         assert "--json" in spore(name, "--help").stdout
     spore(status=2)
@@ -143,6 +143,7 @@ def help_explains_json():
     """--help of each command names every member that --json prints, in the row of what it belongs to."""
     file("ball.off", shapes.off(*shapes.sphere()))
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
+                ("stability", soft_ball(), "--quick", "--svg", "told.svg"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
                 ("surface", "ball.off", "--nodes", 50, "--wall", 0.01), ("centreline", file("told.off", shapes.off(*shapes.tube())), "--scene", "told/line.spore")]
@@ -1582,6 +1583,50 @@ def interruption_ends_a_long_step():
     interrupt(signal.SIGTERM, "run", scene, "-n", 100, asked_alone=True)
     interrupt(signal.SIGTERM, "plan", scene, "--measure", asked_alone=True)
     interrupt(signal.SIGTERM, "run", scene, "-n", 100, "--set", "solver/linear=cholesky")
+
+
+@check
+def stability_pushes_a_scene():
+    """stability gives each case a verdict, each body its largest step, a map, and what it left out; a case that failed is status 1."""
+    answer = report("stability", SCENES / "table1-rigid.spore", "--quick", "--svg", "map.svg", "--time", 0.2)
+    cases = {case["name"]: case for case in answer["cases"]}
+    assert cases["as_written"]["verdict"] == "stable" and cases["input_nan"]["verdict"] == "recovered", cases
+    assert "held" in cases["input_nan"]["detail"] and all(case["detail"] for case in cases.values())
+    assert answer["dt_limit_s"] == [{"body": "ovary", "method": "implicit_euler", "own": True, "step_s": 0.004, "predicted_s": None,
+                                     "safe_s": 0.1, "unsafe_s": None}], answer["dt_limit_s"]
+    assert answer["map"]["verdicts"][1][2] == "stable" and answer["map"]["time_step_s"][2] == 0.004
+    assert any("not with --quick" in left["reason"] and "time step x 16" in left["what"] for left in answer["left_out"])
+    picture = xml.etree.ElementTree.parse(WORK / "map.svg").getroot()
+    assert "table1-rigid.spore" in picture.find("{http://www.w3.org/2000/svg}title").text
+    net = report("stability", SCENES / "table1-mass-spring.spore", "--quick", "--time", 0.001)
+    (limit,) = net["dt_limit_s"]
+    assert limit["method"] == "symplectic_euler" and abs(limit["safe_s"] / limit["predicted_s"] - 1) < 0.05, limit
+    refused = {case["name"]: case for case in net["cases"]}["time_step_x4"]
+    assert refused["verdict"] == "recovered" and "expected at most" in refused["detail"], refused
+    # Two bodies, one far too heavy for the other's contacts.
+    failed = spore("stability", WORK / "fragile.spore", "--quick", "--time", 0.1, status=1) if fragile() else None
+    assert "failed" in failed.stdout and "stack" in failed.stdout, failed.stdout
+
+
+def fragile():
+    """A scene that fails as written: a body with a velocity that no contact stops."""
+    soft_ball()
+    text = (WORK / "soft" / "soft.spore").read_text().replace('"ball" role="passive" position="0 0.02 0"', '"stack" role="passive" position="0 0.02 0" velocity="0 -200 0"')
+    return file("fragile.spore", text.replace('file="', 'file="soft/'))
+
+
+@check
+def stability_refuses_what_it_cannot_do():
+    """Bad input to stability is status 2, and leaves no map."""
+    refuses("stability", "no.spore", "--svg", "never.svg", says=["no.spore"])
+    refuses("stability", soft_ball(), "--time", 0, says=["--time", "expected more than 0 s"])
+    refuses("stability", soft_ball(), "--seconds", "long", says=["--seconds", "long"])
+    refuses("stability", soft_ball(), "--svg", "no/folder/map.svg", says=["no/folder"])
+    refuses("stability", soft_ball(), "--svg", soft_ball(), says=["soft.spore", "this is the input"])
+    refuses("stability", soft_ball(), "--dt", 1, says=["time_step"])
+    assert not (WORK / "never.svg").exists()
+    interrupt(signal.SIGTERM, "stability", sheet_of(60), "--svg", "never.svg", asked_alone=True)
+    assert not (WORK / "never.svg").exists()
 
 
 @check

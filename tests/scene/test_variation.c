@@ -69,10 +69,36 @@ static void test_refused(void) {
   fixture_folder_free(folder);
 }
 
+/* Stretches the body by a tenth, and tells what is stored in it then. */
+static double stored_when_stretched(SporeSimulation *simulation, guint32 body) {
+  const SporeModel *model = spore_world_body_model(simulation->world, body);
+  g_autofree double *q = g_memdup2(spore_world_q(simulation->world, body), model->q_count * sizeof(double));
+  for (gsize i = 0; i < model->q_count; i++) q[i] *= 1.1;
+  return model->type->potential(model, q);
+}
+
+/* A running simulation takes factors on what may change while it runs. */
+static void test_apply(void) {
+  char *folder = fixture_scene_folder_new(SCENE);
+  SporeDocument *document = fixture_load(folder);
+  g_autoptr(SporeSimulation) simulation = make(document, &(SporeVariation){0});
+  double before[2] = {stored_when_stretched(simulation, 0), stored_when_stretched(simulation, 1)};
+  g_assert_true(spore_variation_apply(document, &(SporeVariation){.stiffness = 7, .every_second = TRUE}, simulation));
+  spore_world_step(simulation->world);
+  spore_world_reset(simulation->world);
+  g_assert_cmpfloat_with_epsilon(stored_when_stretched(simulation, 0), before[0], 1e-9 * before[0]);
+  g_assert_cmpfloat_with_epsilon(stored_when_stretched(simulation, 1), 7 * before[1], 1e-9 * before[1]);
+  g_assert_true(spore_variation_apply(document, &(SporeVariation){.contact = 3}, simulation));
+  g_assert_false(spore_variation_apply(document, &(SporeVariation){.mass = 3}, simulation));
+  spore_document_free(document);
+  fixture_folder_free(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/variation/method", test_method);
   g_test_add_func("/variation/factors", test_factors);
+  g_test_add_func("/variation/apply", test_apply);
   g_test_add_func("/variation/refused", test_refused);
   return g_test_run();
 }

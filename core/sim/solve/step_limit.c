@@ -12,11 +12,13 @@
 #include "core/sim/world_private.h"
 
 #define ITERATIONS 500
+#define SURE 0.98 /* of a limit that the iteration finds: its eigenvalue is a lower bound */
 
 typedef struct Power {
   SporeBlockMatrix matrix;
-  double *inverse; /* M^-1, 9 a block */
-  double *x, *y, *z;
+  double *inverse;         /* M^-1, 9 a block */
+  double *x, *y, *z;       /* after an iteration: the eigenvector; work; M times the eigenvector */
+  double *other, *weighed; /* the eigenvector before that, and M times it */
   const uint32_t *held;
   size_t held_count;
   double shift; /* s: the matrix is K + s M */
@@ -89,7 +91,9 @@ static bool allocate(Power *power, const SporeModel *model) {
   power->x = SPORE_NEW_ARRAY(double, n);
   power->y = SPORE_NEW_ARRAY(double, n);
   power->z = SPORE_NEW_ARRAY(double, n);
-  return made && power->inverse && power->x && power->y && power->z;
+  power->other = SPORE_NEW_ARRAY(double, n);
+  power->weighed = SPORE_NEW_ARRAY(double, n);
+  return made && power->inverse && power->x && power->y && power->z && power->other && power->weighed;
 }
 
 static void clear(Power *power) {
@@ -98,6 +102,8 @@ static void clear(Power *power) {
   spore_free(power->x);
   spore_free(power->y);
   spore_free(power->z);
+  spore_free(power->other);
+  spore_free(power->weighed);
 }
 
 /* Root of w^2 h^2 + b d h = a - 1. */
@@ -106,6 +112,85 @@ static double stable_step(const SporeIntegrator *integrator, double square, doub
   double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
   if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
   return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
+}
+
+/* One step of h seconds of the mode x' = v, v' = -w^2 x - d v, as a matrix on (w x, v, and h v' where it is kept). */
+static void step_matrix(const SporeIntegrator *integrator, double w, double d, double h, double m[9]) {
+  double y = h * w, z = h * d;
+  if (integrator == &spore_symplectic_euler) {
+    memcpy(m, (double[]){1 - y * y, y * (1 - z), 0, -y, 1 - z, 0, 0, 0, 0}, 9 * sizeof *m);
+  } else if (integrator == &spore_verlet) {
+    double kept[3] = {-y, -y * y - z, -0.5 * y * y - z};
+    memcpy(m, (double[]){1, y, 0.5 * y, 0.5 * kept[0], 1 + 0.5 * kept[1], 0.5 + 0.5 * kept[2]}, 6 * sizeof *m);
+    memcpy(m + 6, kept, sizeof kept);
+  } else {
+    assert(integrator == &spore_rk4);
+    double power[4] = {1, 0, 0, 1}, sum[4] = {1, 0, 0, 1};
+    for (int k = 1; k <= 4; k++) {
+      const double next[4] = {-y * power[1] / k, (y * power[0] - z * power[1]) / k, -y * power[3] / k,
+                              (y * power[2] - z * power[3]) / k};
+      memcpy(power, next, sizeof next);
+      for (int e = 0; e < 4; e++) sum[e] += next[e];
+    }
+    memcpy(m, (double[]){sum[0], sum[1], 0, sum[2], sum[3], 0, 0, 0, 0}, 9 * sizeof *m);
+  }
+}
+
+/* Whether no eigenvalue is larger than 1: Jury's conditions on l^3 + a l^2 + b l + c. */
+static bool is_stable(const double m[9]) {
+  const double slack = 1e-9;
+  double a = -(m[0] + m[4] + m[8]);
+  double b = m[0] * m[4] - m[1] * m[3] + m[0] * m[8] - m[2] * m[6] + m[4] * m[8] - m[5] * m[7];
+  double c =
+      -(m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]));
+  return 1 + a + b + c >= -slack && 1 - a + b - c >= -slack && fabs(c) <= 1 + slack &&
+         fabs(b - a * c) <= 1 - c * c + slack;
+}
+
+/* The largest step of a mode with that frequency and damping, by bisection. */
+static double mode_step(const SporeIntegrator *integrator, double frequency, double damping) {
+  double rate = fmax(frequency, damping), m[9];
+  if (rate == 0) return HUGE_VAL;
+  double low = 0, high = 8 / rate; /* no method is stable there: a rate of the mode is w, or d/2, at least */
+  for (int i = 0; i < 50; i++) {
+    double middle = 0.5 * (low + high);
+    step_matrix(integrator, frequency, damping, middle, m);
+    if (is_stable(m)) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/* x.A x / x.M x of the present matrix; weighed: M x. */
+static double quotient(Power *power, const double *x, const double *weighed) {
+  size_t n = 3 * power->matrix.block_count;
+  double square = dot(x, weighed, n);
+  memset(power->y, 0, n * sizeof *power->y);
+  spore_block_matrix_multiply_add(&power->matrix, x, power->y);
+  return square > 0 ? fmax(dot(x, power->y, n) / square, 0) : 0;
+}
+
+/* Eigenvalues, and the step of the mode of largest frequency with the damping that it has, or of that of largest
+ * damping with its frequency, whichever is smaller. */
+static void find_modes(Power *power, const SporeModel *model, const double *q, const double *v,
+                       const SporeIntegrator *integrator, SporeStepLimit *limit) {
+  size_t n = 3 * model->block_count;
+  model->type->jacobian(model, q, q, v, 1, 0, &power->matrix);
+  limit->frequency = sqrt(largest_eigenvalue(power));
+  memcpy(power->other, power->x, n * sizeof *power->x);
+  memcpy(power->weighed, power->z, n * sizeof *power->z);
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, q, v, 0, 1, &power->matrix);
+  double its_damping = quotient(power, power->other, power->weighed);
+  limit->damping = largest_eigenvalue(power);
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, q, v, 1, 0, &power->matrix);
+  double its_frequency = limit->damping > 0 ? sqrt(quotient(power, power->x, power->z)) : 0;
+  if (integrator->stable_square == 0) return;
+  limit->dt_s = SURE * stable_step(integrator, limit->frequency * limit->frequency, limit->damping);
+  limit->whole_dt_s = mode_step(integrator, limit->frequency, its_damping);
+  if (limit->damping > 0)
+    limit->whole_dt_s = fmin(limit->whole_dt_s, mode_step(integrator, its_frequency, limit->damping));
 }
 
 /* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
@@ -138,12 +223,13 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   assert(model && limit);
   assert(held_count == 0 || held);
-  *limit = (SporeStepLimit){0, 0, HUGE_VAL};
+  *limit = (SporeStepLimit){0, 0, HUGE_VAL, HUGE_VAL};
   const SporeIntegrator *integrator = spore_integrator(kind);
   if (model->type->rates) {
     model->type->rates(model, &limit->frequency, &limit->damping);
-    double square = limit->frequency * limit->frequency;
-    limit->dt_s = integrator->stable_square > 0 ? 0.98 * stable_step(integrator, square, limit->damping) : 0;
+    if (integrator->stable_square == 0) return limit->dt_s = limit->whole_dt_s = 0, true;
+    limit->dt_s = SURE * stable_step(integrator, limit->frequency * limit->frequency, limit->damping);
+    limit->whole_dt_s = mode_step(integrator, limit->frequency, limit->damping);
     return true;
   }
   if (!model->type->jacobian) return true;
@@ -153,14 +239,11 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
   }
   if (invert_mass(model, q, power.inverse)) {
-    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
-    double square = largest_eigenvalue(&power);
-    spore_block_matrix_zero(&power.matrix);
-    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
-    limit->damping = largest_eigenvalue(&power);
-    limit->frequency = sqrt(square);
-    limit->dt_s = 0.98 * (integrator->stable_square > 0 ? stable_step(integrator, square, limit->damping)
-                                                        : explicit_euler_step(&power, model, q, v, limit));
+    find_modes(&power, model, q, v, integrator, limit);
+    if (integrator->stable_square == 0) {
+      limit->whole_dt_s = explicit_euler_step(&power, model, q, v, limit);
+      limit->dt_s = SURE * limit->whole_dt_s;
+    }
   }
   clear(&power);
   return true;

@@ -30,23 +30,6 @@ typedef struct SporeSnapshots {
   atomic_bool energy_wanted;  /* a reader acquired a snapshot since the energy was last computed */
 } SporeSnapshots;
 
-/* Why a step of a body does not count as solved. The table of causes is in unsolved.c. */
-typedef enum SporeUnsolvedCause {
-  SPORE_UNSOLVED_RESIDUAL, /* figure: the relative residual */
-  SPORE_UNSOLVED_ROUNDING, /* the same, where rounding alone explains it */
-  SPORE_UNSOLVED_FRICTION, /* friction was left out; no figure */
-  SPORE_UNSOLVED_RETAKEN,  /* a step that went wrong was taken again in smaller ones; no figure */
-  SPORE_UNSOLVED_STOOD_IN, /* another integrator than the scene's took the step; no figure */
-  SPORE_UNSOLVED_MODEL,    /* the model capped or mended something, or is not meant for its state; no figure */
-  SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
-  SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
-  SPORE_UNSOLVED_PASSED,   /* a contact did not hold the body; figure: its speed, m/s */
-  SPORE_UNSOLVED_LEFT_OUT, /* contacts had no room; figure: number of contacts, of all bodies together */
-  SPORE_UNSOLVED_ENERGY,   /* energy out of nothing, as a share of the energy at work */
-  SPORE_UNSOLVED_HALVES,   /* how far a step and its halves are apart, as a share of the speed */
-  SPORE_UNSOLVED_TURNED,   /* a frame turned further than its turning is followed; figure: in a step, rad */
-  SPORE_UNSOLVED_CAUSES
-} SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */
 typedef struct SporeUnsolvedCount {
   uint64_t steps;

@@ -90,6 +90,7 @@ SporeUnsolved spore_world_unsolved(const SporeWorld *world, size_t i) {
   const SporeUnsolvedCount *count = &world->state.unsolved[e];
   size_t cause = e % SPORE_UNSOLVED_CAUSES;
   return (SporeUnsolved){.body = (uint32_t)(e / SPORE_UNSOLVED_CAUSES),
+                         .kind = (SporeUnsolvedCause)cause,
                          .steps = count->steps,
                          .worst = count->worst,
                          .unit = causes[cause].unit,
