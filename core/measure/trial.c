@@ -1,0 +1,243 @@
+/* Runs a world from time 0, follows points of its bodies, and counts what the run took. */
+#include "core/measure/trial.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/body/momentum.h"
+
+#define WHOLE 1e-6 /* of a step: what is that near to a whole number of steps is one */
+
+double spore_trial_step(double interval_s, double most_s) {
+  assert(interval_s > 0 && most_s > 0);
+  return interval_s / fmax(1, ceil(interval_s / most_s * (1 - WHOLE)));
+}
+
+typedef struct Run {
+  SporeTrial *trial;
+  SporeWorld *world;
+  const SporeTrialPoints *points;
+  const SporeTrialSettings *settings;
+  SporeMapping *mappings; /* of each body followed; of particles empty */
+  bool lines;             /* control points come and go */
+} Run;
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
+                         _("there is not enough memory for what a run gives; measure a shorter time"));
+}
+
+static bool allocate(Run *run) {
+  SporeTrial *trial = run->trial;
+  size_t samples = run->settings->timed_only ? 0 : run->settings->samples + 1;
+  trial->positions = SPORE_NEW_ARRAY(double, samples * run->points->count * 3);
+  trial->energy = SPORE_NEW_ARRAY(double, samples);
+  trial->kinetic = SPORE_NEW_ARRAY(double, samples);
+  trial->momentum = SPORE_NEW_ARRAY(double, samples * 3);
+  trial->centre = SPORE_NEW_ARRAY(double, samples * run->points->body_count * 3);
+  trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
+  run->mappings = SPORE_NEW_ARRAY(SporeMapping, run->points->body_count);
+  return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre &&
+         trial->device_force && run->mappings;
+}
+
+static bool map_points(Run *run, SporeError *error) {
+  SporeLineState line;
+  for (size_t k = 0; k < run->points->body_count; k++) {
+    const SporeTrialBody *body = &run->points->bodies[k];
+    run->lines |= spore_world_line_state(run->world, body->body, &line);
+    if (body->rest && !spore_world_map(run->world, body->body, body->rest, body->count, &run->mappings[k], error))
+      return false;
+  }
+  return true;
+}
+
+/* -1 .. 1, the same on every machine. */
+static double next_random(uint32_t *state) {
+  *state = *state * 1664525u + 1013904223u;
+  return 2 * (double)(*state >> 8) / (1 << 24) - 1;
+}
+
+/* Moves the nodes of the bodies followed a little. */
+static bool perturb(Run *run) {
+  uint32_t state = 2463534242u + run->settings->seed;
+  for (size_t k = 0; k < run->points->body_count; k++) {
+    const SporeTrialBody *body = &run->points->bodies[k];
+    const SporeModel *model = spore_world_body_model(run->world, body->body);
+    double *q = SPORE_NEW_ARRAY(double, model->q_count);
+    if (!q) return false;
+    memcpy(q, spore_world_q(run->world, body->body), model->q_count * sizeof *q);
+    for (size_t i = 0; i < 3 * model->node_count; i++) {
+      double part = run->settings->perturbation * body->length * next_random(&state);
+      if (!model->type->particles || !spore_particle_is_out(q + i / 3 * 3)) q[i] += part;
+    }
+    spore_world_set_state(run->world, body->body, q, spore_world_v(run->world, body->body));
+    spore_free(q);
+  }
+  return true;
+}
+
+/* Positions of one body's points. False: one of them is not finite. */
+static bool look_at_body(Run *run, size_t k, const SporeSnapshot *lines, double *positions) {
+  const SporeTrialBody *body = &run->points->bodies[k];
+  const double *q = spore_world_q(run->world, body->body);
+  bool finite = true;
+  if (body->rest) {
+    if (lines)
+      spore_world_follow_knots(run->world, body->body, spore_snapshot_knots(run->world, lines, body->body),
+                               &run->mappings[k]);
+    spore_mapping_positions(&run->mappings[k], q, positions);
+    for (size_t i = 0; i < 3 * body->count; i++) finite &= isfinite(positions[i]) != 0;
+    return finite;
+  }
+  for (size_t i = 0; i < body->count; i++) {
+    const double *p = q + 3 * i * body->stride;
+    bool out = spore_particle_is_out(p);
+    for (int c = 0; c < 3; c++) {
+      positions[3 * i + (size_t)c] = out ? NAN : p[c];
+      finite &= out || isfinite(p[c]);
+    }
+  }
+  return finite;
+}
+
+/* Mean of the positions that are numbers. */
+static void take_centre(const double *positions, size_t count, double *centre) {
+  double counted = 0;
+  SporeVec3 sum = {0, 0, 0};
+  for (size_t i = 0; i < count; i++)
+    if (isfinite(positions[3 * i])) {
+      sum = spore_vec3_add(sum, spore_vec3_load(positions + 3 * i));
+      counted++;
+    }
+  spore_vec3_store(centre, spore_vec3_scale(counted > 0 ? 1 / counted : 0, sum));
+}
+
+/* Deepest overlap among the contacts that the snapshot lists. */
+static double deepest(const SporeWorld *world, const SporeSnapshot *snapshot) {
+  const SporeSpheres *spheres = spore_world_spheres(world);
+  double most = 0;
+  size_t count =
+      snapshot->contact_count < snapshot->contact_capacity ? snapshot->contact_count : snapshot->contact_capacity;
+  for (size_t i = 0; i < count; i++) {
+    uint32_t a = snapshot->contacts[i].sphere_a, b = snapshot->contacts[i].sphere_b;
+    double apart =
+        spore_vec3_distance(spore_vec3_load(spheres->centre + 3 * a), spore_vec3_load(spheres->centre + 3 * b));
+    double smaller = fmin(spheres->radius[a], spheres->radius[b]);
+    if (smaller > 0) most = fmax(most, (spheres->radius[a] + spheres->radius[b] - apart) / smaller);
+  }
+  return most;
+}
+
+static SporeVec3 momentum_of(const SporeWorld *world) {
+  SporeVec3 sum = {0, 0, 0};
+  for (uint32_t i = 0; i < spore_world_body_count(world); i++) {
+    const SporeModel *model = spore_world_body_model(world, i);
+    const double *v = model ? spore_world_v(world, i) : NULL;
+    for (size_t b = 0; model && b < model->block_count; b++)
+      sum = spore_vec3_add_scaled(sum, model->block_mass[b], spore_vec3_load(v + 3 * b));
+  }
+  return sum;
+}
+
+static void take_forces(const Run *run, const SporeSnapshot *snapshot, double *force) {
+  for (uint32_t b = 0; b < run->trial->world_bodies; b++)
+    if (spore_world_body_role(run->world, b) == SPORE_ACTIVE)
+      memcpy(force + 3 * b, snapshot->reaction + 6 * b, 3 * sizeof *force);
+}
+
+static void look(Run *run) {
+  SporeTrial *trial = run->trial;
+  size_t s = trial->samples, point = 0;
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(run->world);
+  for (size_t k = 0; k < run->points->body_count; k++) {
+    double *positions = trial->positions + 3 * (s * run->points->count + point);
+    trial->finite &= look_at_body(run, k, run->lines ? snapshot : NULL, positions);
+    take_centre(positions, run->points->bodies[k].count, trial->centre + 3 * (s * run->points->body_count + k));
+    point += run->points->bodies[k].count;
+  }
+  take_forces(run, snapshot, trial->device_force + 3 * s * trial->world_bodies);
+  SporeEnergy energy = spore_world_energy(run->world);
+  trial->energy[s] = energy.kinetic + energy.internal + energy.gravity + energy.contact;
+  trial->kinetic[s] = energy.kinetic;
+  spore_vec3_store(trial->momentum + 3 * s, momentum_of(run->world));
+  trial->finite &= isfinite(trial->energy[s]) != 0;
+  if (s > 0) trial->penetration = fmax(trial->penetration, deepest(run->world, snapshot));
+  trial->samples++;
+}
+
+static double thread_s(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The steps of an interval. False: cancelled. */
+static bool step(Run *run, size_t steps) {
+  SporeTrial *trial = run->trial;
+  double start = thread_s();
+  for (size_t i = 0; i < steps; i++) {
+    spore_world_step(run->world);
+    if (spore_world_cancelled(run->world)) break;
+    spore_world_tidy(run->world);
+    SporeStepCounts counts = spore_world_counts(run->world);
+    trial->force_evaluations += (double)counts.force_evaluations;
+    trial->newton += (double)counts.newton_iterations;
+    trial->linear += (double)counts.linear_iterations;
+    trial->contacts += (double)counts.contacts;
+    trial->residual = fmax(trial->residual, counts.residual);
+    for (size_t t = 0; t < spore_world_tool_count(run->world); t++)
+      trial->coagulated += spore_world_tool_state(run->world, t).coagulated;
+    trial->steps++;
+  }
+  trial->cpu_s += thread_s() - start;
+  trial->cancelled = spore_world_cancelled(run->world) || spore_cancel_asked(run->settings->cancel);
+  return !trial->cancelled;
+}
+
+static void judge(Run *run) {
+  SporeTrial *trial = run->trial;
+  const SporeMonitor *monitor = spore_world_monitor(run->world);
+  SporeProfileSummary times = spore_profile_summary(spore_world_profile(run->world));
+  trial->median_us = times.median_us, trial->p99_us = times.p99_us;
+  trial->simulated_s = (double)trial->steps * trial->dt_s;
+  trial->recoveries = monitor->recoveries;
+  trial->unsolved = spore_world_unsolved_count(run->world);
+  trial->stable = trial->finite && !monitor->not_finite && !monitor->too_fast && !monitor->energy;
+  for (uint32_t i = 0; i < spore_world_body_count(run->world); i++)
+    trial->stable &= !spore_world_body_frozen(run->world, i) && !spore_world_body_made_safer(run->world, i);
+}
+
+bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoints *points,
+                     const SporeTrialSettings *settings, SporeError *error) {
+  assert(settings->interval_s > 0 && settings->dt_s > 0);
+  *trial = (SporeTrial){
+      .world_bodies = spore_world_body_count(world), .points = points->count, .dt_s = settings->dt_s, .finite = true};
+  Run run = {.trial = trial, .world = world, .points = points, .settings = settings};
+  size_t each = (size_t)fmax(1, round(settings->interval_s / settings->dt_s));
+  bool good = allocate(&run) || no_memory(error);
+  good = good && map_points(&run, error);
+  if (good && settings->perturbation > 0) good = perturb(&run) || no_memory(error);
+  if (good && !settings->timed_only) look(&run);
+  for (size_t s = 0; good && s < settings->samples && step(&run, each); s++)
+    if (!settings->timed_only) look(&run);
+  if (good) judge(&run);
+  for (size_t k = 0; run.mappings && k < points->body_count; k++) spore_mapping_clear(&run.mappings[k]);
+  spore_free(run.mappings);
+  if (!good) spore_trial_clear(trial);
+  return good;
+}
+
+void spore_trial_clear(SporeTrial *trial) {
+  spore_free(trial->positions);
+  spore_free(trial->energy);
+  spore_free(trial->kinetic);
+  spore_free(trial->momentum);
+  spore_free(trial->centre);
+  spore_free(trial->device_force);
+  *trial = (SporeTrial){0};
+}

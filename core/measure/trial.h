@@ -1,0 +1,88 @@
+/* A trial: one run of a world, and what it gave. Trials of one scene by different methods, steps and levels follow the
+ * same material points and look at them at the same times, so that their results can be compared. */
+#ifndef SPORE_MEASURE_TRIAL_H
+#define SPORE_MEASURE_TRIAL_H
+
+#include "core/base/cancel.h"
+#include "core/sim/world.h"
+
+#define SPORE_TRIAL_POINTS 64 /* of a body at most */
+
+/* Points of a body that trials follow. */
+typedef struct SporeTrialBody {
+  uint32_t body; /* in the world */
+  size_t count;  /* of its points */
+  double *rest;  /* count x 3, body's frame at rest, m; of particles: NULL */
+  size_t stride; /* of particles: point i is particle i * stride */
+  double length; /* characteristic, m: diagonal of the box around its points at time 0 */
+} SporeTrialBody;
+
+/* Points of the bodies of a scene that trials follow. */
+typedef struct SporeTrialPoints {
+  size_t body_count, count; /* count: of points of all bodies */
+  SporeTrialBody *bodies;
+} SporeTrialPoints;
+
+/* Chooses points of the passive bodies of a world at time 0, each as far as it can be from those before: nodes, samples
+ * of models whose nodes are no material points, six points around the centre of a rigid body. body: of this one alone;
+ * SPORE_NO_BODY: of all. To be freed by spore_trial_points_clear. False: no memory, or nothing is passive. */
+bool spore_trial_points_choose(SporeTrialPoints *points, const SporeWorld *world, uint32_t body, SporeError *error);
+void spore_trial_points_clear(SporeTrialPoints *points);
+
+/* The largest step of at most `most_s` of which a sampling interval is a whole number. */
+double spore_trial_step(double interval_s, double most_s);
+
+/* How a trial is run. */
+typedef struct SporeTrialSettings {
+  double interval_s;   /* between two looks at the points; a multiple of the world's step: spore_trial_step */
+  size_t samples;      /* looks, the one at time 0 not counted */
+  double dt_s;         /* the world's step */
+  double perturbation; /* by which each coordinate of the start is moved at most, as a part of the body's length */
+  uint32_t seed;       /* of the perturbation */
+  bool timed_only;     /* positions, energy and momentum are not looked at */
+  const SporeCancel *cancel; /* asked at each look, beside what the world asks by itself */
+} SporeTrialSettings;
+
+/* What a trial gave; memory of its own. Sample k is k intervals after the start, sample 0 the start. */
+typedef struct SporeTrial {
+  size_t samples, points; /* samples: looks that were made, with the one at the start; points: as followed */
+  double *positions;      /* samples x points x 3, m, world; not numbers: a particle out of the world */
+  double *energy;         /* samples: total, J */
+  double *kinetic;        /* samples, J */
+  double *momentum;       /* samples x 3: of all passive bodies, N s */
+  double *centre;         /* samples x bodies followed x 3: mean position of the points of each, m */
+  size_t world_bodies;
+  double *device_force; /* samples x world_bodies x 3: force on each body that a device moves, N; 0 of the others */
+  size_t steps;
+  double dt_s, simulated_s;
+  double cpu_s;                                       /* of the steps, on the thread's own clock; looks are not in it */
+  double median_us, p99_us;                           /* of a step, by the clock, of the last steps */
+  double force_evaluations, newton, linear, contacts; /* sums over the steps */
+  double penetration;  /* deepest overlap of two spheres by the smaller radius; looked at with the positions */
+  double residual;     /* worst, relative */
+  uint64_t recoveries; /* steps taken again */
+  uint64_t coagulated; /* ties and elements, summed over the steps and tools */
+  size_t unsolved;     /* entries of the register of steps that were not solved as the scene is written */
+  bool finite;         /* all that was looked at is a number */
+  bool stable;         /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that
+                          it had to freeze or to move by a safer method */
+  bool cancelled;      /* it ended early */
+} SporeTrial;
+
+/* Runs a world that is at time 0. The result is to be freed by spore_trial_clear. False: no memory, or a body of the
+ * world cannot carry the points. A trial that was cancelled, or that went wrong, is a result. */
+bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoints *points,
+                     const SporeTrialSettings *settings, SporeError *error);
+void spore_trial_clear(SporeTrial *trial);
+
+/* How far two trials are apart: distances of points by the length of their body. */
+typedef struct SporeTrialDifference {
+  double rms;   /* root of the mean square over points, bodies and samples: each body has the same weight */
+  double final; /* the same over the last sample alone */
+  double worst; /* of any point at any sample */
+} SporeTrialDifference;
+/* Both trials followed the same points at the same times. Infinite where one of them has fewer samples, or something
+ * that is not finite. Particles that are out of the world in either trial are left out. */
+SporeTrialDifference spore_trial_difference(const SporeTrialPoints *points, const SporeTrial *a, const SporeTrial *b);
+
+#endif

@@ -1,0 +1,147 @@
+/* Sets in a copy of a document what a variation says, and compiles the copy. */
+#include "core/scene/variation.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+/* Sets one property of the copy, held within its range. */
+static gboolean set_number(SporeDocument *copy, SporeObject *object, const char *name, double number, GError **error) {
+  int property = spore_parameter_find(spore_object_type(object)->table, name);
+  g_assert(property >= 0);
+  const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
+  SporeValue value = {.type = parameter->type, .number = {CLAMP(number, parameter->minimum, parameter->maximum)}};
+  return spore_document_set(copy, object, (guint)property, &value, error);
+}
+
+static gboolean set_text(SporeDocument *copy, SporeObject *object, const char *name, const char *text, GError **error) {
+  return !text || spore_document_set_text(copy, object, name, text, error);
+}
+
+static gboolean vary_solver(SporeDocument *copy, const SporeVariation *variation, GError **error) {
+  SporeObject *solver = spore_document_section(copy, "solver");
+  if (!set_text(copy, solver, "nonlinear", variation->nonlinear, error)) return FALSE;
+  if (!set_text(copy, solver, "linear", variation->linear, error)) return FALSE;
+  if (variation->dt_s > 0 && !set_number(copy, solver, "time_step", variation->dt_s, error)) return FALSE;
+  if (variation->tolerance > 0 && !set_number(copy, solver, "tolerance", variation->tolerance, error)) return FALSE;
+  if (variation->awake && !set_number(copy, solver, "sleep_speed", 0, error)) return FALSE;
+  return TRUE;
+}
+
+/* Whether a parameter of a model is a stiffness, by its unit, or a mass, by its unit too. */
+static gboolean is_one_of(const char *unit, const char *const *units) { return g_strv_contains(units, unit); }
+
+static gboolean scale(SporeDocument *copy, SporeObject *model, const char *const *units, double factor,
+                      GError **error) {
+  const SporeParameterTable *table = spore_object_type(model)->table;
+  if (factor <= 0 || factor == 1) return TRUE;
+  for (gsize i = 0; i < table->count; i++) {
+    const SporeParameter *parameter = &table->parameters[i];
+    if (parameter->type != SPORE_REAL || !is_one_of(parameter->unit, units)) continue;
+    double number = spore_object_number(model, parameter->name);
+    if (number > 0 && !set_number(copy, model, parameter->name, factor * number, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+static gboolean vary_model(SporeDocument *copy, SporeObject *model, const SporeVariation *variation, GError **error) {
+  static const char *const stiffnesses[] = {"Pa", "N/m", "N/m^2", "N/m^3", NULL};
+  static const char *const masses[] = {"kg", "kg/m", "kg/m^2", "kg/m^3", NULL};
+  return scale(copy, model, stiffnesses, variation->stiffness, error) &&
+         scale(copy, model, masses, variation->mass, error);
+}
+
+static gboolean set_level(SporeDocument *copy, SporeObject *body, const char *level, GError **error) {
+  SporeObject *fidelity = spore_object_child_of(body, "fidelity");
+  if (!level || !fidelity) return TRUE;
+  gboolean has = strcmp(level, spore_lod_names[SPORE_LOD_FINE]) == 0 || spore_object_child_of(fidelity, level);
+  return !has || set_text(copy, fidelity, "level", level, error);
+}
+
+/* scaled: stiffness and mass are of this body, too. */
+static gboolean vary_body(SporeDocument *copy, SporeObject *body, const SporeVariation *variation, gboolean scaled,
+                          GError **error) {
+  SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  if (!mechanical) return TRUE; /* compiling says so */
+  if (!set_text(copy, mechanical, "integrator", variation->integrator, error)) return FALSE;
+  if (variation->integrator && !set_number(copy, mechanical, "substeps", 1, error)) return FALSE;
+  if (!set_level(copy, body, variation->level, error)) return FALSE;
+  if (!scaled || spore_object_child_count(mechanical) == 0) return TRUE;
+  return vary_model(copy, spore_object_child(mechanical, 0), variation, error);
+}
+
+static gboolean vary_contact(SporeDocument *copy, SporeObject *body, double factor, GError **error) {
+  SporeObject *collision = spore_object_child_of(body, "collision");
+  if (!collision || factor <= 0 || factor == 1) return TRUE;
+  return set_number(copy, collision, "stiffness", factor * spore_object_number(collision, "stiffness"), error);
+}
+
+/* Whether the object, or a child of it, names the target. */
+static gboolean refers_to(SporeObject *object, const SporeObject *target) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (gsize i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_REFERENCE &&
+        spore_object_reference(object, table->parameters[i].name) == target)
+      return TRUE;
+  for (guint i = 0; i < spore_object_child_count(object); i++)
+    if (refers_to(spore_object_child(object, i), target)) return TRUE;
+  return FALSE;
+}
+
+/* Removes what names the body; pins_alone: of links only pins. */
+static gboolean untie(SporeDocument *copy, const SporeObject *body, gboolean pins_alone, GError **error) {
+  static const char *const sections[] = {"links", "effects"};
+  for (gsize k = 0; k < (pins_alone ? 1 : G_N_ELEMENTS(sections)); k++) {
+    SporeObject *section = spore_document_section(copy, sections[k]);
+    for (guint i = spore_object_child_count(section); i-- > 0;) {
+      SporeObject *object = spore_object_child(section, i);
+      if (!refers_to(object, body) || (pins_alone && strcmp(spore_object_type(object)->element, "pin") != 0)) continue;
+      if (!spore_document_remove(copy, object, error)) return FALSE;
+    }
+  }
+  return TRUE;
+}
+
+static gboolean remove_child(SporeDocument *copy, SporeObject *body, const char *element, GError **error) {
+  SporeObject *child = spore_object_child_of(body, element);
+  return !child || spore_document_remove(copy, child, error);
+}
+
+/* Takes physics from the body: the body stays in its place, so that the indices of all bodies stay. */
+static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, GError **error) {
+  SporeObject *body = name ? spore_document_find(copy, "body", name) : NULL;
+  if (!name) return TRUE;
+  if (!body)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, name,
+                             _("there is no body of that name; expected a passive body; name another one"));
+  return untie(copy, body, !left_out, error) && remove_child(copy, body, "fidelity", error) &&
+         remove_child(copy, body, "mechanical", error) && (!left_out || remove_child(copy, body, "collision", error)) &&
+         set_text(copy, body, "role", "unmovable", error);
+}
+
+static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GError **error) {
+  SporeObject *bodies = spore_document_section(copy, "bodies");
+  guint passive = 0, named = 0;
+  if (!vary_solver(copy, variation, error)) return FALSE;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (!vary_contact(copy, body, variation->contact, error)) return FALSE;
+    if ((int)spore_object_number(body, "role") != SPORE_PASSIVE) continue;
+    passive++;
+    if (variation->body && strcmp(variation->body, spore_object_name(body)) != 0) continue;
+    named++;
+    if (!vary_body(copy, body, variation, !variation->every_second || passive % 2 == 0, error)) return FALSE;
+  }
+  if (!stop(copy, variation->still, FALSE, error) || !stop(copy, variation->left_out, TRUE, error)) return FALSE;
+  if (named > 0 || !variation->body) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, variation->body,
+                           _("physics moves no body of that name; expected a passive body; name another one"));
+}
+
+SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
+                                      const SporeTrack *input, const SporeCancel *cancel, GError **error) {
+  SporeDocument *copy = spore_document_copy(document);
+  SporeSimulation *simulation =
+      vary(copy, variation, error) ? spore_simulation_new(copy, pool, input, cancel, error) : NULL;
+  spore_document_free(copy);
+  return simulation;
+}

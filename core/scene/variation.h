@@ -1,0 +1,30 @@
+/* A scene varied: the same document with other methods, steps, levels, stiffnesses and masses, compiled for running. */
+#ifndef SPORE_SCENE_VARIATION_H
+#define SPORE_SCENE_VARIATION_H
+
+#include "core/scene/compile.h"
+
+/* What differs from the scene. All zero is the scene as it is. */
+typedef struct SporeVariation {
+  const char *body; /* the passive body that the method, level and factors are of; NULL: all of them */
+  const char
+      *integrator; /* by name. It is taken in one part a step, whatever substeps the scene says. NULL: the scene's */
+  const char *nonlinear, *linear; /* of the scene's solver, by name; NULL: the scene's */
+  const char *level;              /* that bodies which have it begin at; NULL: the scene's */
+  double dt_s;                    /* 0: the scene's */
+  double tolerance;               /* relative residual of implicit steps; 0: the scene's */
+  gboolean awake;                 /* no body sleeps */
+  double stiffness, mass;         /* factors on what the models of the bodies say; 0: 1 */
+  double contact;                 /* factor on the stiffness of the contact law of every body; 0: 1 */
+  const char *still;              /* a passive body that stands still instead; NULL: none */
+  const char *left_out;           /* a passive body that is not there, nor what ties it; NULL: none */
+  gboolean every_second;          /* stiffness and mass are of the second, fourth, ... passive body alone */
+} SporeVariation;
+
+/* Compiles a varied copy of the document, which stays as it is. The other arguments are those of spore_simulation_new.
+ * Values are held within the ranges of their parameters. NULL with a GError: no such body, integrator, solver or level,
+ * or the scene cannot run so. */
+SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
+                                      const SporeTrack *input, const SporeCancel *cancel, GError **error);
+
+#endif
