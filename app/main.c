@@ -30,6 +30,7 @@ static const Command commands[] = {
 #endif
     {"import", spore_command_import, N_("Make a scene from organ meshes")},
     {"edit", spore_command_edit, N_("Change a scene: properties, what holds an organ, a probe")},
+    {"advise", spore_command_advise, N_("Say what a scene simulates that nobody would miss")},
     {"centreline", spore_command_centreline, N_("Find the middle line of a tubular organ")},
     {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
     {"surface", spore_command_surface, N_("Make the surface of a net: fewer, well-shaped triangles")},

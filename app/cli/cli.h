@@ -90,6 +90,7 @@ gboolean spore_cli_seconds(const char *option, const char *text, double *seconds
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);
 
 int spore_command_accuracy(SporeCli *cli, int argc, char **argv);
+int spore_command_advise(SporeCli *cli, int argc, char **argv);
 int spore_command_centreline(SporeCli *cli, int argc, char **argv);
 int spore_command_check(SporeCli *cli, int argc, char **argv);
 int spore_command_edit(SporeCli *cli, int argc, char **argv);

@@ -39,8 +39,10 @@ static bool allocate(Run *run) {
   trial->kinetic = SPORE_NEW_ARRAY(double, samples);
   trial->momentum = SPORE_NEW_ARRAY(double, samples * 3);
   trial->centre = SPORE_NEW_ARRAY(double, samples * run->points->body_count * 3);
+  trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   run->mappings = SPORE_NEW_ARRAY(SporeMapping, run->points->body_count);
-  return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre && run->mappings;
+  return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre &&
+         trial->device_force && run->mappings;
 }
 
 static bool map_points(Run *run, SporeError *error) {
@@ -142,6 +144,12 @@ static SporeVec3 momentum_of(const SporeWorld *world) {
   return sum;
 }
 
+static void take_forces(const Run *run, const SporeSnapshot *snapshot, double *force) {
+  for (uint32_t b = 0; b < run->trial->world_bodies; b++)
+    if (spore_world_body_role(run->world, b) == SPORE_ACTIVE)
+      memcpy(force + 3 * b, snapshot->reaction + 6 * b, 3 * sizeof *force);
+}
+
 static void look(Run *run) {
   SporeTrial *trial = run->trial;
   size_t s = trial->samples, point = 0;
@@ -152,6 +160,7 @@ static void look(Run *run) {
     take_centre(positions, run->points->bodies[k].count, trial->centre + 3 * (s * run->points->body_count + k));
     point += run->points->bodies[k].count;
   }
+  take_forces(run, snapshot, trial->device_force + 3 * s * trial->world_bodies);
   SporeEnergy energy = spore_world_energy(run->world);
   trial->energy[s] = energy.kinetic + energy.internal + energy.gravity + energy.contact;
   trial->kinetic[s] = energy.kinetic;
@@ -181,6 +190,8 @@ static bool step(Run *run, size_t steps) {
     trial->linear += (double)counts.linear_iterations;
     trial->contacts += (double)counts.contacts;
     trial->residual = fmax(trial->residual, counts.residual);
+    for (size_t t = 0; t < spore_world_tool_count(run->world); t++)
+      trial->coagulated += spore_world_tool_state(run->world, t).coagulated;
     trial->steps++;
   }
   trial->cpu_s += thread_s() - start;
@@ -204,7 +215,8 @@ static void judge(Run *run) {
 bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoints *points,
                      const SporeTrialSettings *settings, SporeError *error) {
   assert(settings->interval_s > 0 && settings->dt_s > 0);
-  *trial = (SporeTrial){.points = points->count, .dt_s = settings->dt_s, .finite = true};
+  *trial = (SporeTrial){
+      .world_bodies = spore_world_body_count(world), .points = points->count, .dt_s = settings->dt_s, .finite = true};
   Run run = {.trial = trial, .world = world, .points = points, .settings = settings};
   size_t each = (size_t)fmax(1, round(settings->interval_s / settings->dt_s));
   bool good = allocate(&run) || no_memory(error);
@@ -226,5 +238,6 @@ void spore_trial_clear(SporeTrial *trial) {
   spore_free(trial->kinetic);
   spore_free(trial->momentum);
   spore_free(trial->centre);
+  spore_free(trial->device_force);
   *trial = (SporeTrial){0};
 }

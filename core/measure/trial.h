@@ -51,6 +51,8 @@ typedef struct SporeTrial {
   double *kinetic;        /* samples, J */
   double *momentum;       /* samples x 3: of all passive bodies, N s */
   double *centre;         /* samples x bodies followed x 3: mean position of the points of each, m */
+  size_t world_bodies;
+  double *device_force; /* samples x world_bodies x 3: force on each body that a device moves, N; 0 of the others */
   size_t steps;
   double dt_s, simulated_s;
   double cpu_s;                                       /* of the steps, on the thread's own clock; looks are not in it */
@@ -59,6 +61,7 @@ typedef struct SporeTrial {
   double penetration;  /* deepest overlap of two spheres by the smaller radius; looked at with the positions */
   double residual;     /* worst, relative */
   uint64_t recoveries; /* steps taken again */
+  uint64_t coagulated; /* ties and elements, summed over the steps and tools */
   size_t unsolved;     /* entries of the register of steps that were not solved as the scene is written */
   bool finite;         /* all that was looked at is a number */
   bool stable;         /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that

@@ -95,6 +95,49 @@ static gboolean vary_contact(SporeDocument *copy, SporeObject *body, double fact
   return set_number(copy, collision, "stiffness", factor * spore_object_number(collision, "stiffness"), error);
 }
 
+/* Whether the object, or a child of it, names the target. */
+static gboolean refers_to(SporeObject *object, const SporeObject *target) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (gsize i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_REFERENCE &&
+        spore_object_reference(object, table->parameters[i].name) == target)
+      return TRUE;
+  for (guint i = 0; i < spore_object_child_count(object); i++)
+    if (refers_to(spore_object_child(object, i), target)) return TRUE;
+  return FALSE;
+}
+
+/* Removes what names the body; pins_alone: of links only pins. */
+static gboolean untie(SporeDocument *copy, const SporeObject *body, gboolean pins_alone, GError **error) {
+  static const char *const sections[] = {"links", "effects"};
+  for (gsize k = 0; k < (pins_alone ? 1 : G_N_ELEMENTS(sections)); k++) {
+    SporeObject *section = spore_document_section(copy, sections[k]);
+    for (guint i = spore_object_child_count(section); i-- > 0;) {
+      SporeObject *object = spore_object_child(section, i);
+      if (!refers_to(object, body) || (pins_alone && strcmp(spore_object_type(object)->element, "pin") != 0)) continue;
+      if (!spore_document_remove(copy, object, error)) return FALSE;
+    }
+  }
+  return TRUE;
+}
+
+static gboolean remove_child(SporeDocument *copy, SporeObject *body, const char *element, GError **error) {
+  SporeObject *child = spore_object_child_of(body, element);
+  return !child || spore_document_remove(copy, child, error);
+}
+
+/* Takes physics from the body: the body stays in its place, so that the indices of all bodies stay. */
+static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, GError **error) {
+  SporeObject *body = name ? spore_document_find(copy, "body", name) : NULL;
+  if (!name) return TRUE;
+  if (!body)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, name,
+                             _("there is no body of that name; expected a passive body; name another one"));
+  return untie(copy, body, !left_out, error) && remove_child(copy, body, "fidelity", error) &&
+         remove_child(copy, body, "mechanical", error) && (!left_out || remove_child(copy, body, "collision", error)) &&
+         set_text(copy, body, "role", "unmovable", error);
+}
+
 static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GError **error) {
   SporeObject *bodies = spore_document_section(copy, "bodies");
   guint passive = 0, named = 0, taken = 0;
@@ -108,6 +151,7 @@ static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GErro
     named++;
     if (!vary_body(copy, body, variation, !variation->every_second || passive % 2 == 0, &taken, error)) return FALSE;
   }
+  if (!stop(copy, variation->still, FALSE, error) || !stop(copy, variation->left_out, TRUE, error)) return FALSE;
   if (named == 0 && variation->body)
     return spore_error_raise(error, SPORE_ERROR_INPUT, variation->body,
                              _("physics moves no body of that name; expected a passive body; name another one"));

@@ -16,6 +16,8 @@ typedef struct SporeVariation {
   gboolean awake;                 /* no body sleeps */
   double stiffness, mass;         /* factors on what the models of the bodies say; 0: 1 */
   double contact;                 /* factor on the stiffness of the contact law of every body; 0: 1 */
+  const char *still;              /* a passive body that stands still instead; NULL: none */
+  const char *left_out;           /* a passive body that is not there, nor what ties it; NULL: none */
   gboolean every_second;          /* stiffness and mass are of the second, fourth, ... passive body alone */
 } SporeVariation;
 

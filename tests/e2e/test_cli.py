@@ -899,6 +899,60 @@ def plan_prunes_alike():
     assert steam["equal"] == "bound" and 0 <= steam["worst"] < 1e-4, steam
 
 
+def hanging(name, density, links='<spring name="tie" body_a="organ" body_b="extra" point_a="0 -0.03 0" point_b="0 -0.07 0" stiffness="20" damping="0.05"/>'):
+    """An organ on a spring, and a ball of that density that hangs from it."""
+    file("hang/ball.off", shapes.off(*shapes.sphere()))
+    body = ('<body name="{}" position="0 {} 0"><mechanical geometry="ball"><rigid_body density="{}"/></mechanical>'
+            '<visual mesh="ball"/></body>')
+    return file(f"hang/{name}.spore", f"""<spore version="1.0">
+  <environment gravity="0 -9.81 0"/>
+  <solver time_step="0.004"/>
+  <assets><mesh name="ball" file="ball.off"/></assets>
+  <bodies>{body.format("organ", 0, 1000)}{body.format("extra", -0.1, density)}</bodies>
+  <links>
+    <spring name="cord" body_a="organ" point_a="0 0.03 0" point_b="0 0.05 0" stiffness="100" damping="0.1"/>
+    {links}
+  </links>
+</spore>
+""")
+
+
+@check
+def advise_tells_physical_from_effect():
+    """advise: steam that only shows is an effect, what hangs on springs is physical, and a light thing becomes one as its mass is swept."""
+    steam = {e["id"]: e for e in report("advise", SCENES / "plate7-steam.spore", "--time", "0.6")["elements"]}
+    assert steam["bodies/steam"]["verdict"] == "effect" and steam["bodies/steam"]["influence"] <= steam["bodies/steam"]["noise_floor"]
+    verdicts = {}
+    for density in (0.001, 1, 1000):
+        answer = report("advise", hanging(f"hang{density}", density))
+        element = {e["id"]: e for e in answer["elements"]}["bodies/extra"]
+        verdicts[density] = element["verdict"], element["influence"]
+        if density == 1000:
+            assert element["influence"] > element["noise_floor"] and "organ" in element["reason"], element
+            assert all(change["id"] != "extra" for change in answer["suggestion"]), answer["suggestion"]
+    assert [verdicts[d][0] for d in (0.001, 1000)] == ["effect", "physical"], verdicts
+    assert verdicts[0.001][1] < verdicts[1][1] < verdicts[1000][1], verdicts
+    held = hanging("held", 1000, '<spring name="tie" body_a="extra" body_b="hand" stiffness="20"/>')
+    text = held.read_text().replace("</bodies>", '<body name="hand" role="active"><visual mesh="ball"/></body></bodies>')
+    extra = {e["id"]: e for e in report("advise", file("hang/held.spore", text))["elements"]}["bodies/extra"]
+    assert extra["verdict"] == "physical" and "tie" in extra["reason"] and extra["influence"] is None, extra
+    alone = report("advise", soft_ball())
+    assert [e["verdict"] for e in alone["elements"]] == ["physical"] and alone["suggestion"] == []
+
+
+@check
+def advise_refuses_in_words():
+    """advise of nothing that moves, of a bad time, or of no scene ends with status 2 and one line."""
+    still = soft_ball().read_text().replace('role="passive" ', 'role="unmovable" ').replace(
+        """      <mechanical geometry="ball">
+        <rigid_body/>
+      </mechanical>
+""", "")
+    refuses("advise", file("soft/still.spore", still), says=["moves no body"])
+    refuses("advise", soft_ball(), "--time", "nan", says=["--time", "nan"])
+    refuses("advise", WORK / "nothing.spore", says=["nothing.spore"])
+
+
 @check
 def plan_names_methods():
     """plan names for each body how it is integrated and solved, and whether the scene says so."""

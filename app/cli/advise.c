@@ -1,0 +1,364 @@
+/* spore advise: physical or effect. Each body that physics moves is replayed in cheaper forms, and what the others do
+ * then is compared with what they do when the step is halved or the start is a little off. */
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "app/cli/cli.h"
+#include "app/cli/scene.h"
+#include "core/measure/influence.h"
+#include "core/scene/variation.h"
+
+#define USUAL_TIME_S 1. /* where nothing is recorded */
+#define LONGEST_TIME_S 10.
+#define SAMPLES 50
+#define PERTURBED 2        /* runs from a start that is a little off */
+#define PERTURBATION 1e-8  /* of a body's length */
+#define LEAST_FLOOR 1e-6   /* of a body's length: nobody sees less */
+#define LEAST_FORCE_N 1e-4 /* no hand feels less */
+
+/* What happened in a run, besides motion. */
+typedef struct Events {
+  guint64 broken, torn, lost, cut, coagulated, taken, pierced, stitches, held;
+} Events;
+
+/* A run and the bodies that it followed. */
+typedef struct Replay {
+  SporeTrialPoints points;
+  SporeTrial trial;
+  Events events;
+} Replay;
+
+typedef struct Advice {
+  SporeCli *cli;
+  SporeRun *run;
+  double dt_s, interval_s;
+  guint done, count; /* replays */
+} Advice;
+
+static Events events_of(const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  Events events = {.broken = monitor->broken_links, .torn = monitor->torn_springs, .lost = monitor->lost_holds};
+  for (gsize i = 0; i < spore_world_tool_count(world); i++) {
+    SporeToolState tool = spore_world_tool_state(world, i);
+    events.cut += tool.cut, events.taken += tool.taken, events.pierced += tool.pierced;
+    events.stitches += tool.stitches, events.held += tool.held;
+  }
+  return events;
+}
+
+static void clear_replay(Replay *replay) {
+  spore_trial_clear(&replay->trial);
+  spore_trial_points_clear(&replay->points);
+}
+
+static gboolean cancelled(GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_CANCELLED, "", "%s", _("cancelled"));
+}
+
+/* Runs the scene varied. perturbation: 0, or by how much the start is off. */
+static gboolean replay(Advice *advice, const SporeVariation *variation, double perturbation, guint32 seed,
+                       Replay *replay, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  const SporeTrack *input = advice->run->input.channel_count ? &advice->run->input : NULL;
+  *replay = (Replay){0};
+  g_autoptr(SporeSimulation) simulation =
+      spore_variation_make(advice->run->document, variation, advice->run->pool, input, spore_cli_cancel(), error);
+  if (!simulation) return FALSE;
+  const SporeTrialSettings settings = {.interval_s = advice->interval_s,
+                                       .samples = SAMPLES,
+                                       .dt_s = variation->dt_s > 0 ? variation->dt_s : advice->dt_s,
+                                       .perturbation = perturbation,
+                                       .seed = seed,
+                                       .cancel = spore_cli_cancel()};
+  gboolean good = spore_trial_points_choose(&replay->points, simulation->world, SPORE_NO_BODY, &fault) &&
+                  spore_trial_run(&replay->trial, simulation->world, &replay->points, &settings, &fault);
+  if (!good) {
+    clear_replay(replay);
+    return spore_error_propagate(&fault, error);
+  }
+  replay->events = events_of(simulation->world);
+  replay->events.coagulated = replay->trial.coagulated;
+  spore_progress(spore_cli_progress(advice->cli), (double)++advice->done / advice->count, _("replaying"));
+  if (!replay->trial.cancelled) return TRUE;
+  clear_replay(replay);
+  return cancelled(error);
+}
+
+/* The noise floor: half the step, and starts that are a little off. */
+static gboolean find_floor(Advice *advice, const Replay *full, SporeEvidence *evidence, GError **error) {
+  evidence->floor = LEAST_FLOOR, evidence->force_floor = LEAST_FORCE_N;
+  for (guint32 i = 0; i <= PERTURBED; i++) {
+    const SporeVariation half = {.dt_s = i == 0 ? 0.5 * advice->dt_s : 0};
+    Replay other;
+    if (!replay(advice, &half, i == 0 ? 0 : PERTURBATION, i, &other, error)) return FALSE;
+    SporeInfluence influence = spore_influence_between(&full->points, &full->trial, &other.points, &other.trial);
+    if (isfinite(influence.rms)) {
+      evidence->floor = fmax(evidence->floor, influence.rms);
+      evidence->force_floor = fmax(evidence->force_floor, influence.force);
+    }
+    clear_replay(&other);
+  }
+  return TRUE;
+}
+
+static double step_us(const SporeTrial *trial) { return trial->steps ? 1e6 * trial->cpu_s / (double)trial->steps : 0; }
+
+/* Bodies of another run without this one. */
+static gboolean try_form(Advice *advice, const Replay *full, guint32 body, const SporeVariation *variation,
+                         SporeVerdict verdict, SporeEvidence *evidence, GError **error) {
+  Replay other;
+  SporeForm *form = &evidence->forms[verdict];
+  if (!replay(advice, variation, 0, 0, &other, error)) return FALSE;
+  /* What the body itself does is not what others feel of it. */
+  for (gsize k = 0; k < other.points.body_count; k++)
+    if (other.points.bodies[k].body == body) other.points.bodies[k].body = SPORE_NO_BODY;
+  form->tried = true;
+  form->influence = spore_influence_between(&full->points, &full->trial, &other.points, &other.trial);
+  form->saved_us = evidence->step_us - step_us(&other.trial);
+  if (verdict == SPORE_VERDICT_EFFECT) evidence->events = memcmp(&full->events, &other.events, sizeof(Events)) != 0;
+  clear_replay(&other);
+  return TRUE;
+}
+
+/* Name of an instrument that names the body, or of a link that ties the body to what a device moves. */
+static const char *holder_of(SporeDocument *document, const SporeObject *body) {
+  static const char *const sections[] = {"tools", "links"};
+  for (gsize k = 0; k < G_N_ELEMENTS(sections); k++) {
+    const SporeObject *section = spore_document_section(document, sections[k]);
+    for (guint i = 0; i < spore_object_child_count(section); i++) {
+      const SporeObject *object = spore_object_child(section, i);
+      const SporeParameterTable *table = spore_object_type(object)->table;
+      gboolean names = FALSE, active = k == 0;
+      for (gsize p = 0; p < table->count; p++) {
+        if (table->parameters[p].type != SPORE_REFERENCE) continue;
+        const SporeObject *target = spore_object_reference(object, table->parameters[p].name);
+        names |= target == body;
+        active |= target && strcmp(spore_object_type(target)->element, "body") == 0 &&
+                  (int)spore_object_number(target, "role") == SPORE_ACTIVE;
+      }
+      if (names && active) return spore_object_name(object);
+    }
+  }
+  return NULL;
+}
+
+static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed, SporeEvidence *evidence,
+                              GError **error) {
+  const SporeWorld *world = advice->run->simulation->world;
+  guint32 body = full->points.bodies[followed].body;
+  const char *name = spore_world_body_name(world, body);
+  SporeObject *object = spore_document_find(advice->run->document, "body", name);
+  evidence->own_motion = spore_influence_own_motion(&full->points, &full->trial, followed);
+  evidence->held = holder_of(advice->run->document, object);
+  evidence->alone = full->points.body_count == 1;
+  if (evidence->held || evidence->alone) return TRUE;
+  const SporeVariation left_out = {.left_out = name}, still = {.still = name};
+  if (!try_form(advice, full, body, &left_out, SPORE_VERDICT_EFFECT, evidence, error)) return FALSE;
+  gboolean particles = spore_world_body_model(world, body)->type->particles != NULL;
+  if (!particles && evidence->own_motion <= SPORE_EVIDENCE_STILL &&
+      !try_form(advice, full, body, &still, SPORE_VERDICT_STILL, evidence, error))
+    return FALSE;
+  for (int level = 0; level < SPORE_LOD_FINE; level++) {
+    if (!spore_world_lod_model(world, body, (SporeLodGrade)level)) continue;
+    const SporeVariation coarse = {.body = name, .level = spore_lod_names[level]};
+    return try_form(advice, full, body, &coarse, SPORE_VERDICT_COARSE, evidence, error);
+  }
+  return TRUE;
+}
+
+/* Reports. */
+
+static char *reason_of(const Advice *advice, const SporeEvidence *evidence, SporeVerdict verdict) {
+  const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
+  if (evidence->held) return g_strdup_printf(_("\"%s\" acts on it"), evidence->held);
+  if (evidence->alone) return g_strdup(_("it is all that moves by physics"));
+  if (evidence->events)
+    return g_strdup(_("an instrument or a load does to it what does not happen without it: it is cut, coagulated, "
+                      "taken, held, or breaks"));
+  double share = evidence->step_us > 0 ? evidence->forms[verdict].saved_us / evidence->step_us : 0;
+  if (verdict == SPORE_VERDICT_EFFECT)
+    return g_strdup_printf(_("nothing else moves otherwise without it; %.0f %% of a step is saved"), 100 * share);
+  if (verdict == SPORE_VERDICT_STILL)
+    return g_strdup_printf(_("it moves by %.2g of its length at most, and nothing else moves otherwise where it stands "
+                             "still; %.0f %% of a step is saved"),
+                           evidence->own_motion, 100 * share);
+  if (verdict == SPORE_VERDICT_COARSE)
+    return g_strdup_printf(_("nothing else moves otherwise at its coarsest level; %.0f %% of a step is saved"),
+                           100 * share);
+  if (out->influence.rms > evidence->floor && out->influence.worst_body != SPORE_NO_BODY)
+    return g_strdup_printf(_("without it \"%s\" is up to %.2g of its length elsewhere"),
+                           spore_world_body_name(advice->run->simulation->world, out->influence.worst_body),
+                           out->influence.worst);
+  if (out->influence.force > evidence->force_floor)
+    return g_strdup_printf(_("without it hands feel %.2g N less or more"), out->influence.force);
+  return g_strdup_printf(_("leaving it out saves %.1f %% of a step, which is not worth it"),
+                         100 * out->saved_us / evidence->step_us);
+}
+
+static void report_form(SporeCli *cli, const char *name, const SporeForm *form) {
+  if (!form->tried) return;
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "form", name);
+  spore_cli_number(cli, "influence", form->influence.rms);
+  spore_cli_number(cli, "worst", form->influence.worst);
+  spore_cli_number(cli, "force_N", form->influence.force);
+  spore_cli_number(cli, "saved_us", form->saved_us);
+  spore_cli_close(cli);
+}
+
+static SporeVerdict report_element(Advice *advice, const char *name, const SporeEvidence *evidence, int width) {
+  SporeCli *cli = advice->cli;
+  SporeVerdict verdict = spore_evidence_verdict(evidence);
+  const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
+  g_autofree char *reason = reason_of(advice, evidence, verdict), *id = g_strdup_printf("bodies/%s", name);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "id", id);
+  spore_cli_number(cli, "influence", out->tried ? out->influence.rms : NAN);
+  spore_cli_number(cli, "noise_floor", evidence->floor);
+  spore_cli_number(cli, "force_N", out->tried ? out->influence.force : NAN);
+  spore_cli_number(cli, "force_floor_N", evidence->force_floor);
+  spore_cli_number(cli, "cost_us", out->tried ? out->saved_us : NAN);
+  spore_cli_number(cli, "own_motion", evidence->own_motion);
+  spore_cli_text(cli, "verdict", spore_verdict_names[verdict]);
+  spore_cli_text(cli, "reason", reason);
+  spore_cli_open_array(cli, "forms");
+  for (int k = 0; k < SPORE_VERDICT_COUNT; k++) report_form(cli, spore_verdict_names[k], &evidence->forms[k]);
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  g_autofree char *influence = out->tried ? g_strdup_printf("%.2e", out->influence.rms) : g_strdup("-");
+  g_autofree char *cost = out->tried ? g_strdup_printf("%.2f us", out->saved_us) : g_strdup("-");
+  spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, name, spore_verdict_names[verdict], influence, cost, reason);
+  return verdict;
+}
+
+static void report_suggestions(Advice *advice, const SporeTrialPoints *points, const SporeVerdict *verdicts,
+                               const SporeEvidence *evidence) {
+  static const char *const changes[SPORE_VERDICT_COUNT] = {[SPORE_VERDICT_STILL] = N_("make it unmovable"),
+                                                           [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
+                                                           [SPORE_VERDICT_EFFECT] =
+                                                               N_("draw it by a special effect, or leave it out")};
+  SporeCli *cli = advice->cli;
+  guint count = 0;
+  spore_cli_open_array(cli, "suggestion");
+  for (gsize k = 0; k < points->body_count; k++) {
+    if (verdicts[k] == SPORE_VERDICT_PHYSICAL) continue;
+    const char *name = spore_world_body_name(advice->run->simulation->world, points->bodies[k].body);
+    double saved_us = evidence[k].forms[verdicts[k]].saved_us;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "id", name);
+    spore_cli_text(cli, "change", _(changes[verdicts[k]]));
+    spore_cli_number(cli, "saves_us", saved_us);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("%s: %s; saves %.1f us of %.1f us a step\n"), name, _(changes[verdicts[k]]), saved_us,
+                  evidence[k].step_us);
+    count++;
+  }
+  spore_cli_close_array(cli);
+  if (count == 0) spore_cli_say(cli, _("nothing to suggest: what is simulated is felt\n"));
+  spore_cli_say(cli, _("this holds for this input, over %g s\n"), SAMPLES * advice->interval_s);
+}
+
+static gboolean advise(Advice *advice, GError **error) {
+  const SporeVariation as_it_is = {0};
+  SporeEvidence floor = {0};
+  Replay full;
+  if (!replay(advice, &as_it_is, 0, 0, &full, error)) return FALSE;
+  gsize count = full.points.body_count;
+  g_autofree SporeEvidence *evidence = g_new0(SporeEvidence, count);
+  g_autofree SporeVerdict *verdicts = g_new0(SporeVerdict, count);
+  floor.step_us = step_us(&full.trial);
+  gboolean good = find_floor(advice, &full, &floor, error);
+  for (gsize k = 0; good && k < count; k++) {
+    evidence[k] = floor;
+    good = find_evidence(advice, &full, k, &evidence[k], error);
+  }
+  if (good) {
+    SporeCli *cli = advice->cli;
+    int width = spore_cli_body_width(advice->run->simulation->world);
+    spore_cli_say(cli,
+                  _("noise floor: halving the step, or a start that is a little off, moves the others by %.2e of "
+                    "their length, and hands feel %.2g N of it\n"),
+                  floor.floor, floor.force_floor);
+    spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, _("body"), _("verdict"), _("influence"), _("cost"), _("why"));
+    spore_cli_open_array(cli, "elements");
+    for (gsize k = 0; k < count; k++)
+      verdicts[k] =
+          report_element(advice, spore_world_body_name(advice->run->simulation->world, full.points.bodies[k].body),
+                         &evidence[k], width);
+    spore_cli_close_array(cli);
+    report_suggestions(advice, &full.points, verdicts, evidence);
+  }
+  clear_replay(&full);
+  return good;
+}
+
+/* The whole of the recorded input, up to a limit. */
+static double usual_time(const SporeRun *run) {
+  const SporeTrack *track = run->input.channel_count ? &run->input : run->simulation->track;
+  double end_s = 0;
+  for (gsize i = 0; track && i < track->channel_count; i++)
+    if (track->channels[i].count) end_s = fmax(end_s, track->channels[i].time_s[track->channels[i].count - 1]);
+  return end_s > 0 ? fmin(end_s, LONGEST_TIME_S) : USUAL_TIME_S;
+}
+
+static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions *options, const char *time) {
+  GError *error = NULL;
+  double time_s = 0;
+  if (time && !spore_cli_seconds("--time", time, &time_s, &error)) return spore_cli_fail(error);
+  g_autoptr(SporeRun) run = spore_run_open(cli, scene, options, 1, &error);
+  if (!run) return spore_cli_fail(error);
+  Advice advice = {.cli = cli, .run = run};
+  if (!time) time_s = usual_time(run);
+  advice.dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
+  advice.interval_s = advice.dt_s * fmax(1, round(time_s / SAMPLES / advice.dt_s));
+  guint passive = 0;
+  for (guint32 b = 0; b < spore_world_body_count(run->simulation->world); b++)
+    passive += spore_world_body_role(run->simulation->world, b) == SPORE_PASSIVE;
+  if (passive == 0) {
+    spore_error_raise(&error, SPORE_ERROR_INPUT, scene,
+                      _("physics moves no body; expected one at least; there is nothing to advise"));
+    return spore_cli_fail(error);
+  }
+  advice.count = 2 + PERTURBED + 2 * passive;
+  gboolean good = advise(&advice, &error);
+  if (spore_cli_interrupted()) {
+    g_clear_error(&error);
+    return SPORE_EXIT_INTERRUPTED;
+  }
+  return good ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+int spore_command_advise(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"elements",
+       N_("bodies that physics moves: id, influence (without it, how far the others are elsewhere: root mean square, "
+          "by "
+          "their length; null: not tried), noise_floor (the same of half the step, or of a start that is a little "
+          "off), force_N and force_floor_N (the same of forces on what devices move), cost_us (of a step, that it "
+          "takes), own_motion (by its length), verdict (physical, still, coarse, effect), reason, forms (that were "
+          "tried: form, influence, worst, force_N, saved_us)")},
+      {"suggestion", N_("what may be changed: id, change, saves_us")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {
+      "advise",
+      "SCENE",
+      N_("Replays the scene without each of its bodies, and says which of them nobody would miss: physical where "
+         "others "
+         "feel it, or an effect where what is seen of it is enough. The advice holds for the input that was replayed."),
+      1,
+      1,
+      members};
+  SporeSceneOptions options = {0};
+  char *time = NULL;
+  const GOptionEntry entries[] = {
+      {"time", 't', 0, G_OPTION_ARG_STRING, &time,
+       N_("Simulated time of each replay (default: the recorded input, up to 10 s; without one 1 s)"), "S"},
+      SPORE_SCENE_OPTION_ENTRIES(options),
+      G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE) status = run_advice(cli, argv[1], &options, time);
+  spore_scene_options_clear(&options);
+  g_free(time);
+  return status;
+}
