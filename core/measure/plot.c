@@ -18,7 +18,7 @@
 #define BOTTOM 108.
 #define LINE_OF_TEXT 18.
 
-#define POINTS_MOST 200 /* of a line on which they are seen */
+#define POINTS_MOST 64 /* of a line on which they are seen */
 
 const char *const spore_plot_colours[SPORE_PLOT_COLOURS] = {"#0072b2", "#d55e00", "#009e73",
                                                             "#cc79a7", "#e69f00", "#56b4e9"};
