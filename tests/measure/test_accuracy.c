@@ -13,6 +13,7 @@
 #define BROKEN SPORE_INTEGRATOR_BDF2
 #define BROKEN_PART 0.97 /* of its step, that the broken method really goes */
 
+#define DIVERGENCE 70.  /* 1/s: 1e-8 grows to 1e-2 in the stretch */
 #define COARSE_PART 0.9 /* of gravity: an error that no step mends */
 
 /* What worlds are made of. */
@@ -231,6 +232,26 @@ static void test_broken_reference(void) {
   spore_accuracy_report_free(report);
 }
 
+/* Masses on springs that push them away: what lies nearly the same at the start lies far apart at the end. */
+static void describe_divergence(Rig *rig) {
+  ChainFields fields = {
+      .count = 2, .mass = 0.5, .spacing = 0.1, .anchor = -0.5 * DIVERGENCE * DIVERGENCE, .poison_at = HUGE_VAL};
+  rig_passive(rig, "body", chain_create(fields), NULL);
+}
+
+static void test_chaos(void) {
+  const SporeAccuracyMethod methods[] = {all[2], all[3]};
+  Case test = {.describe = describe_divergence};
+  SporeError error = SPORE_ERROR_INIT;
+  SporeAccuracyReport *report = study(&test, methods, 2, &error);
+  if (!report) g_error("%s", error.message);
+  g_assert_true(report->chaotic && report->statistics);
+  g_assert_cmpfloat(report->growth, >, 1e-3);
+  g_assert_cmpfloat(report->spread, >, 0);
+  g_assert_cmpfloat(report->floor, >=, 2 * report->spread);
+  spore_accuracy_report_free(report);
+}
+
 /* Forces that are not numbers from the start on: no step is stable, so that nothing can be a reference. */
 static void describe_poison(Rig *rig) {
   ChainFields fields = {.count = 2, .mass = 0.5, .spacing = 0.1, .anchor = 200, .poison_at = -1};
@@ -287,6 +308,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/accuracy/levels", test_levels);
   g_test_add_func("/accuracy/broken_point", test_broken_point);
   g_test_add_func("/accuracy/broken_reference", test_broken_reference);
+  g_test_add_func("/accuracy/chaos", test_chaos);
   g_test_add_func("/accuracy/nothing_converges", test_nothing_converges);
   g_test_add_func("/accuracy/refused", test_refused);
   g_test_add_func("/accuracy/cancelled", test_cancelled);
