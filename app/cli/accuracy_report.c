@@ -25,8 +25,9 @@ const SporeReportMember spore_accuracy_members[] = {
         "energy at work), penetration (by the smaller radius), us_per_step, p99_us, real_time_factor, cpu_s (for a "
         "simulated second), stable, as_written (no step was unsolved), resolved (above the floor), pareto, repeats, "
         "and a step: force_evaluations, newton, linear")},
-    {"methods", N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
-                   "smooth), converges")},
+    {"methods",
+     N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
+        "smooth), converges (false: at these steps smaller ones do not help, while another method is much nearer)")},
     {"levels", N_("with --levels: level, error (of space: by the reference's method)")},
     {"pareto", N_("indices in points: no other point has a smaller error at a smaller cost, ascending by cost")},
     {"cut", N_("what was cut to fit the time, or could not be had, in words; --full cuts nothing")},
@@ -200,9 +201,10 @@ static char *describe_methods(const SporeAccuracyReport *report) {
   for (gsize m = 0; m < report->method_count; m++) {
     const SporeAccuracyFit *fit = &report->methods[m];
     if (isnan(fit->order)) continue;
-    g_string_append_printf(text, _("order of %s: %.2g +- %.1g (%g where forces are smooth)%s\n"), fit->label,
-                           fit->order, fit->order_spread, fit->nominal,
-                           fit->converges ? "" : _(": smaller steps do not help, it does not converge"));
+    g_string_append_printf(
+        text, _("order of %s: %.2g +- %.1g (%g where forces are smooth)%s\n"), fit->label, fit->order,
+        fit->order_spread, fit->nominal,
+        fit->converges ? "" : _(": at these steps smaller ones do not help, while another method is much nearer"));
   }
   for (gsize i = 0; i < report->level_count; i++)
     g_string_append_printf(text, _("level %s: %.2g %% off in space\n"), level_name(report->levels[i].level),

@@ -235,6 +235,11 @@ static bool run_pair(SporeStudy *study, const Pair *pair) {
   size_t left = 0;
   for (size_t i = 0; i < study->steps; i++) {
     double dt_s = step_at(study, pair->first_s, i);
+    bool same = i > 0 && dt_s > step_at(study, pair->first_s, i - 1) * (1 - 1e-9);
+    if (same) {
+      spore_study_cut(study, _("%s: the step nearest to the one wished for is %.3g ms again"), fit->label, 1e3 * dt_s);
+      continue;
+    }
     if (is_too_much(study, last_s, i - left)) {
       left++;
       continue;
@@ -301,6 +306,7 @@ static bool repeat(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
   double round_s = 0;
   size_t rounds = 1, wanted = study->options->repeats, count = report->point_count;
+  for (size_t i = 0; i < count; i++) round_s += is_long(study, i) ? 0 : study->trials[i].cpu_s;
   for (; rounds < wanted; rounds++) {
     double began_s = spore_study_elapsed_s(study);
     if (!study->options->full && began_s + round_s > REPEATS_SHARE * study->most_s) break;

@@ -85,7 +85,7 @@ typedef struct SporeAccuracyFit {
   double order;        /* slope of the error over the step; not a number: fewer than three points tell it */
   double order_spread; /* of the slope */
   double nominal;      /* order where forces are smooth */
-  bool converges;      /* false: at least three points tell that smaller steps do not help */
+  bool converges;      /* false: at these steps smaller ones do not help, while another method is much nearer */
 } SporeAccuracyFit;
 
 typedef struct SporeAccuracyReference {

@@ -29,6 +29,13 @@ double spore_study_nominal_order(SporeIntegratorKind kind) {
   }
 }
 
+int spore_study_finest_level(const SporeAccuracyReport *report) {
+  int level = -1;
+  for (size_t i = 0; i < report->level_count; i++)
+    if (report->levels[i].level > level) level = report->levels[i].level;
+  return level;
+}
+
 static int compare_numbers(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);
@@ -199,9 +206,7 @@ static bool say(SporeStudy *study) {
 
 bool spore_study_judge(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
-  int level = -1;
-  for (size_t i = 0; i < report->level_count; i++)
-    level = level > report->levels[i].level ? level : report->levels[i].level;
+  int level = spore_study_finest_level(report);
   report->floor =
       fmax(RESOLVED * report->reference.own_error, report->statistics ? SPREADS * report->spread : report->growth);
   for (size_t i = 0; i < report->point_count; i++) judge_point(study, i);

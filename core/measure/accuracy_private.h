@@ -17,11 +17,11 @@ typedef struct SporeStudy {
   size_t perturbed_count;
   double **q, **v; /* of each body at the start; NULL: the stretch begins at time 0 */
   size_t body_count, samples;
-  size_t steps;     /* of each method */
-  double most_s;    /* on the processor, so that what else it does changes nothing */
-  double started_s; /* by spore_study_processor_s */
-  double until_s;   /* a single run ends there; 0: never */
-  double done;      /* for progress, 0..1 */
+  size_t steps;       /* of each method */
+  double most_s;      /* on the processor, so that what else it does changes nothing */
+  double started_s;   /* by spore_study_processor_s */
+  double until_s;     /* a single run ends there; 0: never */
+  double done;        /* for progress, 0..1 */
   SporeError refusal; /* the last reason why the scene did not run by a method */
   SporeError *error;
 } SporeStudy;
@@ -63,6 +63,8 @@ double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a,
 
 /* accuracy_judge.c: errors of all points, orders, the Pareto set and the sentence. False: no memory. */
 bool spore_study_judge(SporeStudy *study);
+/* The finest of the levels that were asked for, which the reference is of; -1: none were, so the scene's. */
+int spore_study_finest_level(const SporeAccuracyReport *report);
 /* Order of a method where forces are smooth. */
 double spore_study_nominal_order(SporeIntegratorKind kind);
 

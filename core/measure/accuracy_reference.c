@@ -223,12 +223,7 @@ static bool find_spatial_errors(SporeStudy *study) {
 
 bool spore_study_refer(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
-  int level = report->level_count > 0 ? SPORE_LOD_FINE : -1, halved = 0;
-  if (report->level_count > 0) { /* the finest that was run */
-    level = report->levels[0].level;
-    for (size_t i = 1; i < report->level_count; i++)
-      level = level > report->levels[i].level ? level : report->levels[i].level;
-  }
+  int level = spore_study_finest_level(report), halved = 0;
   Candidate best;
   if (!choose(study, level, SIZE_MAX, 2, SHARE * study->most_s, &best, &halved))
     return spore_error_set(study->error, SPORE_ERROR_NUMERICAL, NULL,

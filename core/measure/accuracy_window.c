@@ -99,7 +99,7 @@ static bool begin_late(SporeStudy *study, SporeWorld *world, double contact_s, d
   spore_study_cut(
       study,
       _("contacts come after %.3g s of the input; the stretch begins at 0 s all the same, since the scene's "
-        "state there cannot be taken over (ask for more with --time)"),
+        "state there cannot be taken over (--full with a longer --time takes them in)"),
       contact_s);
   study->report->start_s = 0;
   return true;

@@ -130,7 +130,17 @@ def people_get_a_table():
     for said in ("reference: ", "comes to the same within", "order of implicit_euler: ", "Pareto", "tr_bdf2 at 2 ms: "):
         assert said in text, text
     assert spore(swing(), *FEW, "--quiet").stdout == ""
-    assert "own_error" in spore("--help").stdout
+
+
+@check
+def help_explains_json():
+    described = spore("--help").stdout.partition("--json prints:")[2]
+    rows = {row.split()[0]: row for row in described.strip().splitlines()}
+    for name, value in json.loads(spore(swing(), *FEW, "--json").stdout).items():
+        below = value[0] if isinstance(value, list) and value else value
+        for member in below if isinstance(below, dict) else ():
+            assert member in rows[name], f"--help does not name {name}.{member}"
+        assert name in rows, name
 
 
 @check

@@ -13,6 +13,9 @@
 #define BROKEN SPORE_INTEGRATOR_BDF2
 #define BROKEN_PART 0.97 /* of its step, that the broken method really goes */
 
+#define DIVERGENCE 70.  /* 1/s: 1e-8 grows to 1e-2 in the stretch */
+#define COARSE_PART 0.9 /* of gravity: an error that no step mends */
+
 /* What worlds are made of. */
 typedef struct Case {
   void (*describe)(Rig *rig);
@@ -65,6 +68,7 @@ static SporeWorld *make(void *data, const SporeAccuracyWorld *wanted, SporeError
   solver->time_step = wanted->dt_s > 0 ? wanted->dt_s : 1e-3;
   if (wanted->method) solver->integrator = (int)wanted->method->integrator;
   if (test->broken && wanted->method && wanted->method->integrator == BROKEN) solver->time_step *= BROKEN_PART;
+  if (wanted->level == SPORE_LOD_COARSE) rig->description.gravity.y *= COARSE_PART;
   SporeWorld *world = rig_try_build(rig, error);
   if (world) g_hash_table_insert(test->rigs, world, rig);
   else rig_free(rig);
@@ -186,6 +190,24 @@ static void test_orders(void) {
   spore_accuracy_report_free(report);
 }
 
+/* A coarse level has an error of its own; the finest level is what errors are measured from. */
+static void test_levels(void) {
+  const int levels[] = {SPORE_LOD_COARSE, SPORE_LOD_FINE};
+  Case test = {.describe = describe_springs, .rigs = g_hash_table_new(NULL, NULL)};
+  const SporeAccuracyScene scene = {&test, make, drop, FALSE, {SPORE_INTEGRATOR_RK4, -1, -1}, 1e-3};
+  const SporeAccuracyOptions options = {
+      .methods = all, .method_count = 2, .levels = levels, .level_count = 2, .time_s = 0.1, .full = TRUE};
+  SporeAccuracyReport *report = spore_accuracy_study(&scene, &options, NULL);
+  g_assert_cmpuint(report->level_count, ==, 2);
+  g_assert_cmpfloat(report->levels[0].error, >, 100 * report->levels[1].error);
+  for (size_t i = 0; i < report->point_count; i++)
+    if (report->points[i].level == SPORE_LOD_COARSE && report->points[i].method == 1)
+      g_assert_cmpfloat_with_epsilon(report->points[i].error, report->levels[0].error, 0.1 * report->levels[0].error);
+  spore_accuracy_report_free(report);
+  g_assert_cmpuint(test.made, ==, test.dropped);
+  g_hash_table_unref(test.rigs);
+}
+
 /* A method that does not go as far as it says has an error that no step lowers. */
 static void test_broken_point(void) {
   const SporeAccuracyMethod methods[] = {all[1], all[3], {BROKEN, -1, -1}};
@@ -207,6 +229,26 @@ static void test_broken_reference(void) {
   g_assert_false(report->reference.agreed);
   g_assert_cmpfloat(report->reference.own_error, >, 1e-3);
   for (size_t i = 0; i < report->point_count; i++) g_assert_false(report->points[i].pareto);
+  spore_accuracy_report_free(report);
+}
+
+/* Masses on springs that push them away: what lies nearly the same at the start lies far apart at the end. */
+static void describe_divergence(Rig *rig) {
+  ChainFields fields = {
+      .count = 2, .mass = 0.5, .spacing = 0.1, .anchor = -0.5 * DIVERGENCE * DIVERGENCE, .poison_at = HUGE_VAL};
+  rig_passive(rig, "body", chain_create(fields), NULL);
+}
+
+static void test_chaos(void) {
+  const SporeAccuracyMethod methods[] = {all[2], all[3]};
+  Case test = {.describe = describe_divergence};
+  SporeError error = SPORE_ERROR_INIT;
+  SporeAccuracyReport *report = study(&test, methods, 2, &error);
+  if (!report) g_error("%s", error.message);
+  g_assert_true(report->chaotic && report->statistics);
+  g_assert_cmpfloat(report->growth, >, 1e-3);
+  g_assert_cmpfloat(report->spread, >, 0);
+  g_assert_cmpfloat(report->floor, >=, 2 * report->spread);
   spore_accuracy_report_free(report);
 }
 
@@ -263,8 +305,10 @@ int main(int argc, char **argv) {
   g_test_add_func("/accuracy/springs", test_springs);
   g_test_add_func("/accuracy/top", test_top);
   g_test_add_func("/accuracy/orders", test_orders);
+  g_test_add_func("/accuracy/levels", test_levels);
   g_test_add_func("/accuracy/broken_point", test_broken_point);
   g_test_add_func("/accuracy/broken_reference", test_broken_reference);
+  g_test_add_func("/accuracy/chaos", test_chaos);
   g_test_add_func("/accuracy/nothing_converges", test_nothing_converges);
   g_test_add_func("/accuracy/refused", test_refused);
   g_test_add_func("/accuracy/cancelled", test_cancelled);
