@@ -185,32 +185,51 @@ static bool try_cases(Study *study, SporeWorld **world, bool quick) {
 
 /* Limits. */
 
+/* Why a search ended before it was done. */
+typedef enum SearchEnd { SEARCH_DONE, SEARCH_LATE, SEARCH_NOTHING, SEARCH_FAILED } SearchEnd;
+
 typedef struct LimitSearch {
   Study *study;
   SporeWorld *world;
   uint32_t body;
   SporeStabilityLimit *limit;
-  bool failed;  /* cancelled, or no memory */
-  bool nothing; /* of the body moves */
+  SearchEnd end; /* SEARCH_NOTHING: nothing of the body moves; SEARCH_FAILED: cancelled, or no memory */
 } LimitSearch;
+
+static bool limits_are_late(void *study) { return is_late(study, UNTIL_LIMITS); }
+
+/* Ends the search. */
+static int end_search(LimitSearch *search, SearchEnd end) {
+  search->end = end;
+  return -1;
+}
 
 static int is_safe(void *data, double step_s) {
   LimitSearch *search = data;
-  if (is_late(search->study, UNTIL_LIMITS)) return -1;
-  if (!go_on(search->study, 0, _("the largest steps"))) return search->failed = true, -1;
-  SporeMethodResult result = spore_world_try_method(
-      search->world, search->body, &(SporeMethodTrial){search->limit->method, step_s, search->limit->steps});
-  if (result.outcome == SPORE_METHOD_CANCELLED || result.outcome == SPORE_METHOD_NO_MEMORY) {
-    search->failed = true;
-    if (result.outcome == SPORE_METHOD_NO_MEMORY) no_memory(search->study->error);
-    else spore_error_set(search->study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    return -1;
+  SporeStabilityLimit *limit = search->limit;
+  const SporeCancel late = {limits_are_late, search->study};
+  if (spore_cancel_asked(&late)) return end_search(search, SEARCH_LATE);
+  if (!go_on(search->study, 0, _("the largest steps"))) return end_search(search, SEARCH_FAILED);
+  SporeMethodResult result = spore_world_try_method(search->world, search->body,
+                                                    &(SporeMethodTrial){limit->method, step_s, limit->steps, &late});
+  switch (result.outcome) {
+  case SPORE_METHOD_BOUNDED:
+    return 1;
+  case SPORE_METHOD_NOTHING:
+    return end_search(search, SEARCH_NOTHING);
+  case SPORE_METHOD_NO_MEMORY:
+    no_memory(search->study->error);
+    return end_search(search, SEARCH_FAILED);
+  case SPORE_METHOD_CANCELLED:
+    if (spore_cancel_asked(&late)) return end_search(search, SEARCH_LATE);
+    spore_error_set(search->study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    return end_search(search, SEARCH_FAILED);
+  default:
+    break;
   }
-  if (result.outcome == SPORE_METHOD_NOTHING) return search->nothing = true, -1;
-  if (result.outcome == SPORE_METHOD_BOUNDED) return 1;
-  if (step_s < search->limit->found.unsafe_s) {
-    search->limit->found.unsafe_s = step_s;
-    search->limit->beyond = result.outcome;
+  if (step_s < limit->found.unsafe_s) {
+    limit->found.unsafe_s = step_s;
+    limit->beyond = result.outcome;
   }
   return 0;
 }
@@ -227,70 +246,74 @@ static SporeIntegratorKind kind_of(const char *name) {
   return (SporeIntegratorKind)kind;
 }
 
-static const char *largest_step_of(const char *body, char *text, size_t size) {
-  snprintf(text, size, _("largest step of %s"), body);
-  return text;
+/* Notes that the largest step of the body was not found. */
+static void leave_limit_out(Study *study, const char *why, const char *body, SporeIntegratorKind kind) {
+  char what[200];
+  snprintf(what, sizeof what, _("largest step of %s by %s"), body, spore_integrator_names[kind]);
+  leave_out(study, why, what);
 }
 
 /* False: cancelled, or no memory. */
+static bool search_limit(LimitSearch *search) {
+  Study *study = search->study;
+  SporeStabilityLimit *limit = search->limit;
+  SporeStepLimit predicted;
+  if (!limit->body || !spore_world_predict_step(search->world, search->body, limit->method, &predicted, study->error))
+    return no_memory(study->error);
+  limit->predicted_s = predicted.whole_dt_s;
+  limit->found = spore_step_search(&(SporeStepSearch){.predicted_s = limit->predicted_s,
+                                                      .usual_s = usual_step(&predicted, limit->step_s),
+                                                      .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
+                                                      .cuts = study->options->quick ? QUICK_CUTS : CUTS},
+                                   is_safe, search);
+  return search->end != SEARCH_FAILED;
+}
+
 static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeIntegratorKind kind,
                        const SporeMethod *method) {
   SporeStabilityReport *report = study->report;
   const char *name = spore_world_body_name(world, body);
-  bool quick = study->options->quick, own = kind == kind_of(method->integrator.name);
-  char what[200];
-  if (is_late(study, UNTIL_LIMITS)) {
-    leave_out(study, _("no time; give it more by --seconds"), largest_step_of(name, what, sizeof what));
-    return true;
-  }
   SporeStabilityLimit *limit = &report->limits[report->limit_count];
   *limit = (SporeStabilityLimit){.body = spore_copy_text(name),
                                  .method = kind,
-                                 .own = own,
+                                 .own = kind == kind_of(method->integrator.name),
                                  .step_s = report->time_step_s / (double)method->substeps,
                                  .found = {.unsafe_s = HUGE_VAL},
-                                 .steps = quick ? QUICK_STEPS : LIMIT_STEPS};
-  SporeStepLimit predicted;
+                                 .steps = study->options->quick ? QUICK_STEPS : LIMIT_STEPS};
   report->limit_count++;
-  if (!limit->body || !spore_world_predict_step(world, body, kind, &predicted, study->error))
-    return no_memory(study->error);
-  limit->predicted_s = predicted.whole_dt_s;
   LimitSearch search = {.study = study, .world = world, .body = body, .limit = limit};
-  limit->found = spore_step_search(&(SporeStepSearch){.predicted_s = limit->predicted_s,
-                                                      .usual_s = usual_step(&predicted, limit->step_s),
-                                                      .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
-                                                      .cuts = quick ? QUICK_CUTS : CUTS},
-                                   is_safe, &search);
-  if (search.nothing) {
-    leave_out(study, _("nothing of it moves at the start"), largest_step_of(name, what, sizeof what));
+  bool done = search_limit(&search);
+  if (search.end == SEARCH_LATE) leave_limit_out(study, _("no time; give it more by --seconds"), name, kind);
+  if (search.end == SEARCH_NOTHING) leave_limit_out(study, _("nothing of it moves at the start"), name, kind);
+  if (search.end == SEARCH_LATE || search.end == SEARCH_NOTHING) {
     spore_free(limit->body);
     report->limit_count--;
   }
-  return !search.failed;
+  return done;
 }
 
-/* The body by its own method, or also by all others that take steps in time. */
-static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, const SporeMethod *method) {
-  SporeIntegratorKind own = kind_of(method->integrator.name);
-  char what[200];
-  const char *name = spore_world_body_name(world, body);
-  if (own == SPORE_INTEGRATOR_STATIC)
-    leave_out(study, _("static finds a balance, and takes no step in time"), largest_step_of(name, what, sizeof what));
-  else if (!find_limit(study, world, body, own, method)) return false;
-  if (study->options->quick) return true;
-  for (int kind = 0; kind < SPORE_INTEGRATOR_STATIC; kind++)
-    if (kind != (int)own && !find_limit(study, world, body, (SporeIntegratorKind)kind, method)) return false;
+/* The body by its own method, or by all others that take steps in time. */
+static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, bool own) {
+  SporeMethod method;
+  if (!spore_world_body_method(world, body, &method)) return true;
+  SporeIntegratorKind chosen = kind_of(method.integrator.name);
+  if (own && chosen != SPORE_INTEGRATOR_STATIC) return find_limit(study, world, body, chosen, &method);
+  if (own)
+    leave_limit_out(study, _("static finds a balance, and takes no step in time"), spore_world_body_name(world, body),
+                    chosen);
+  for (int kind = 0; !own && kind < SPORE_INTEGRATOR_STATIC; kind++)
+    if (kind != (int)chosen && !find_limit(study, world, body, (SporeIntegratorKind)kind, &method)) return false;
   return true;
 }
 
 static bool find_limits(Study *study, SporeWorld *world) {
+  uint32_t count = (uint32_t)spore_world_body_count(world);
+  for (uint32_t body = 0; body < count; body++)
+    if (!go_on(study, 1, _("the largest steps")) || !find_limits_of(study, world, body, true)) return false;
   if (study->options->quick)
     leave_out(study, _("not with --quick"), _("largest steps by other methods than each body's own"));
-  for (uint32_t body = 0; body < spore_world_body_count(world); body++) {
-    SporeMethod method;
-    if (!spore_world_body_method(world, body, &method)) continue;
-    if (!go_on(study, 1, _("the largest steps")) || !find_limits_of(study, world, body, &method)) return false;
-  }
+  for (uint32_t body = 0; !study->options->quick && body < count; body++)
+    if (!go_on(study, 0, _("the largest steps")) || !find_limits_of(study, world, body, false)) return false;
   return true;
 }
 
