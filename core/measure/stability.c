@@ -24,7 +24,8 @@
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
 #define UNTIL_LIMITS 0.4
 #define UNTIL_CASES 0.8
-#define SMALL_STEP 1e-9 /* of the scene's: the smallest step that a scene may have is taken */
+#define UNTIL_CASES_ALONE 0.95 /* where no map is wanted */
+#define SMALL_STEP 1e-9        /* of the scene's: the smallest step that a scene may have is taken */
 #define LEFT_OUT_MOST 16
 /* Times the steps of a case, until an instrument meets something. */
 #define LONGER 4
@@ -54,6 +55,8 @@ static bool go_on(Study *study, double pieces, const char *what) {
 static uint64_t clock_at(const Study *study, double part) {
   return study->begun_ns + (uint64_t)(1e9 * part * study->options->most_s);
 }
+
+static double until_cases(const Study *study) { return study->options->map ? UNTIL_CASES : UNTIL_CASES_ALONE; }
 
 static bool is_late(const Study *study, double part) { return spore_clock_ns() > clock_at(study, part); }
 
@@ -87,14 +90,22 @@ static const char *impossible(const SporeWorld *world, const SporePush *push) {
 }
 
 /* Steps of a case, so that it takes as long as the scene's `steps`, between half and twice as many. The scene as it is
- * goes on until an instrument meets something, and so do all cases after that. */
+ * goes on until an instrument meets something, and so do all cases after that if there is time. */
 static SporePushLength length_of(const Study *study, const SporePush *push) {
   size_t own = study->report->steps;
   double steps = fmin(fmax((double)own / push->change.time_step, 0.5 * (double)own), 2 * (double)own);
   bool first = push == &spore_pushes[0] && study->options->time_s == 0;
   return (SporePushLength){.steps = (size_t)steps,
                            .most = first ? (study->options->quick ? LONGER_QUICK : LONGER) * own : 0,
-                           .until_ns = clock_at(study, UNTIL_CASES)};
+                           .until_ns = clock_at(study, until_cases(study))};
+}
+
+/* Whether there is time for all cases, each as long as the one that began then. */
+static bool are_affordable(const Study *study, uint64_t begun_ns) {
+  double count = 0;
+  for (size_t i = 0; i < spore_push_count; i++) count += spore_pushes[i].quick || !study->options->quick;
+  double all_s = (until_cases(study) - UNTIL_LIMITS) * study->options->most_s;
+  return 1e-9 * (double)(spore_clock_ns() - begun_ns) <= all_s / count;
 }
 
 /* Runs the case in the world. False: cancelled, or no memory. */
@@ -102,6 +113,7 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   SporeStabilityReport *report = study->report;
   SporeStabilityCase *into = &report->cases[report->case_count];
   SporePushRun run;
+  uint64_t begun_ns = spore_clock_ns();
   study->spent |= push->jump != SPORE_JUMP_NONE;
   if (!spore_push_run(study->scene, world, push, length_of(study, push), &run)) return no_memory(study->error);
   if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
@@ -113,7 +125,8 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   into->verdict = spore_push_judge(world, push, &run, into->detail, sizeof into->detail);
   if (report->case_count++ > 0) return true;
   report->contacts = run.contacts;
-  report->met = run.met_at > 0;
+  bool longer = run.steps > report->steps;
+  report->met = run.met_at > 0 && (!longer || are_affordable(study, begun_ns));
   if (report->met) report->steps = run.steps;
   return true;
 }
@@ -150,7 +163,7 @@ static bool try_case(Study *study, SporeWorld *world, const SporePush *push) {
     leave_out(study, _("not with --quick"), _(push->label));
     return true;
   }
-  if (is_late(study, UNTIL_CASES)) {
+  if (is_late(study, until_cases(study))) {
     leave_out(study, _("no time; give it more by --seconds"), _(push->label));
     return true;
   }
