@@ -150,7 +150,7 @@ static int report(SporeCli *cli, const char *scene, const SporeStabilityReport *
                 study->case_count, study->steps, 1e3 * study->time_step_s, stable, study->case_count - stable - failed,
                 failed);
   if (study->instruments && !study->met)
-    spore_cli_say(cli, _("no instrument met anything in the scene as written; a longer --time may say more\n"));
+    spore_cli_say(cli, _("no instrument meets anything within these steps; a longer --time may say more\n"));
   return failed > 0 ? SPORE_EXIT_NOT_HELD : SPORE_EXIT_DONE;
 }
 

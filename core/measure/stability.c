@@ -24,7 +24,8 @@
 /* Parts of the time: limits are found until the first, cases are run until the second, the map is made after that. */
 #define UNTIL_LIMITS 0.4
 #define UNTIL_CASES 0.8
-#define SMALL_STEP 1e-9 /* of the scene's: the smallest step that a scene may have is taken */
+#define UNTIL_CASES_ALONE 0.95 /* where no map is wanted */
+#define SMALL_STEP 1e-9        /* of the scene's: the smallest step that a scene may have is taken */
 #define LEFT_OUT_MOST 16
 /* Times the steps of a case, until an instrument meets something. */
 #define LONGER 4
@@ -54,6 +55,8 @@ static bool go_on(Study *study, double pieces, const char *what) {
 static uint64_t clock_at(const Study *study, double part) {
   return study->begun_ns + (uint64_t)(1e9 * part * study->options->most_s);
 }
+
+static double until_cases(const Study *study) { return study->options->map ? UNTIL_CASES : UNTIL_CASES_ALONE; }
 
 static bool is_late(const Study *study, double part) { return spore_clock_ns() > clock_at(study, part); }
 
@@ -87,14 +90,22 @@ static const char *impossible(const SporeWorld *world, const SporePush *push) {
 }
 
 /* Steps of a case, so that it takes as long as the scene's `steps`, between half and twice as many. The scene as it is
- * goes on until an instrument meets something, and so do all cases after that. */
+ * goes on until an instrument meets something, and so do all cases after that if there is time. */
 static SporePushLength length_of(const Study *study, const SporePush *push) {
   size_t own = study->report->steps;
   double steps = fmin(fmax((double)own / push->change.time_step, 0.5 * (double)own), 2 * (double)own);
   bool first = push == &spore_pushes[0] && study->options->time_s == 0;
   return (SporePushLength){.steps = (size_t)steps,
                            .most = first ? (study->options->quick ? LONGER_QUICK : LONGER) * own : 0,
-                           .until_ns = clock_at(study, UNTIL_CASES)};
+                           .until_ns = clock_at(study, until_cases(study))};
+}
+
+/* Whether there is time for all cases, each as long as the one that began then. */
+static bool are_affordable(const Study *study, uint64_t begun_ns) {
+  double count = 0;
+  for (size_t i = 0; i < spore_push_count; i++) count += spore_pushes[i].quick || !study->options->quick;
+  double all_s = (until_cases(study) - UNTIL_LIMITS) * study->options->most_s;
+  return 1e-9 * (double)(spore_clock_ns() - begun_ns) <= all_s / count;
 }
 
 /* Runs the case in the world. False: cancelled, or no memory. */
@@ -102,6 +113,7 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   SporeStabilityReport *report = study->report;
   SporeStabilityCase *into = &report->cases[report->case_count];
   SporePushRun run;
+  uint64_t begun_ns = spore_clock_ns();
   study->spent |= push->jump != SPORE_JUMP_NONE;
   if (!spore_push_run(study->scene, world, push, length_of(study, push), &run)) return no_memory(study->error);
   if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
@@ -113,7 +125,8 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   into->verdict = spore_push_judge(world, push, &run, into->detail, sizeof into->detail);
   if (report->case_count++ > 0) return true;
   report->contacts = run.contacts;
-  report->met = run.met_at > 0;
+  bool longer = run.steps > report->steps;
+  report->met = run.met_at > 0 && (!longer || are_affordable(study, begun_ns));
   if (report->met) report->steps = run.steps;
   return true;
 }
@@ -150,7 +163,7 @@ static bool try_case(Study *study, SporeWorld *world, const SporePush *push) {
     leave_out(study, _("not with --quick"), _(push->label));
     return true;
   }
-  if (is_late(study, UNTIL_CASES)) {
+  if (is_late(study, until_cases(study))) {
     leave_out(study, _("no time; give it more by --seconds"), _(push->label));
     return true;
   }
@@ -185,32 +198,51 @@ static bool try_cases(Study *study, SporeWorld **world, bool quick) {
 
 /* Limits. */
 
+/* Why a search ended before it was done. */
+typedef enum SearchEnd { SEARCH_DONE, SEARCH_LATE, SEARCH_NOTHING, SEARCH_FAILED } SearchEnd;
+
 typedef struct LimitSearch {
   Study *study;
   SporeWorld *world;
   uint32_t body;
   SporeStabilityLimit *limit;
-  bool failed;  /* cancelled, or no memory */
-  bool nothing; /* of the body moves */
+  SearchEnd end; /* SEARCH_NOTHING: nothing of the body moves; SEARCH_FAILED: cancelled, or no memory */
 } LimitSearch;
+
+static bool limits_are_late(void *study) { return is_late(study, UNTIL_LIMITS); }
+
+/* Ends the search. */
+static int end_search(LimitSearch *search, SearchEnd end) {
+  search->end = end;
+  return -1;
+}
 
 static int is_safe(void *data, double step_s) {
   LimitSearch *search = data;
-  if (is_late(search->study, UNTIL_LIMITS)) return -1;
-  if (!go_on(search->study, 0, _("the largest steps"))) return search->failed = true, -1;
-  SporeMethodResult result = spore_world_try_method(
-      search->world, search->body, &(SporeMethodTrial){search->limit->method, step_s, search->limit->steps});
-  if (result.outcome == SPORE_METHOD_CANCELLED || result.outcome == SPORE_METHOD_NO_MEMORY) {
-    search->failed = true;
-    if (result.outcome == SPORE_METHOD_NO_MEMORY) no_memory(search->study->error);
-    else spore_error_set(search->study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    return -1;
+  SporeStabilityLimit *limit = search->limit;
+  const SporeCancel late = {limits_are_late, search->study};
+  if (spore_cancel_asked(&late)) return end_search(search, SEARCH_LATE);
+  if (!go_on(search->study, 0, _("the largest steps"))) return end_search(search, SEARCH_FAILED);
+  SporeMethodResult result = spore_world_try_method(search->world, search->body,
+                                                    &(SporeMethodTrial){limit->method, step_s, limit->steps, &late});
+  switch (result.outcome) {
+  case SPORE_METHOD_BOUNDED:
+    return 1;
+  case SPORE_METHOD_NOTHING:
+    return end_search(search, SEARCH_NOTHING);
+  case SPORE_METHOD_NO_MEMORY:
+    no_memory(search->study->error);
+    return end_search(search, SEARCH_FAILED);
+  case SPORE_METHOD_CANCELLED:
+    if (spore_cancel_asked(&late)) return end_search(search, SEARCH_LATE);
+    spore_error_set(search->study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    return end_search(search, SEARCH_FAILED);
+  default:
+    break;
   }
-  if (result.outcome == SPORE_METHOD_NOTHING) return search->nothing = true, -1;
-  if (result.outcome == SPORE_METHOD_BOUNDED) return 1;
-  if (step_s < search->limit->found.unsafe_s) {
-    search->limit->found.unsafe_s = step_s;
-    search->limit->beyond = result.outcome;
+  if (step_s < limit->found.unsafe_s) {
+    limit->found.unsafe_s = step_s;
+    limit->beyond = result.outcome;
   }
   return 0;
 }
@@ -227,70 +259,74 @@ static SporeIntegratorKind kind_of(const char *name) {
   return (SporeIntegratorKind)kind;
 }
 
-static const char *largest_step_of(const char *body, char *text, size_t size) {
-  snprintf(text, size, _("largest step of %s"), body);
-  return text;
+/* Notes that the largest step of the body was not found. */
+static void leave_limit_out(Study *study, const char *why, const char *body, SporeIntegratorKind kind) {
+  char what[200];
+  snprintf(what, sizeof what, _("largest step of %s by %s"), body, spore_integrator_names[kind]);
+  leave_out(study, why, what);
 }
 
 /* False: cancelled, or no memory. */
+static bool search_limit(LimitSearch *search) {
+  Study *study = search->study;
+  SporeStabilityLimit *limit = search->limit;
+  SporeStepLimit predicted;
+  if (!limit->body || !spore_world_predict_step(search->world, search->body, limit->method, &predicted, study->error))
+    return no_memory(study->error);
+  limit->predicted_s = predicted.whole_dt_s;
+  limit->found = spore_step_search(&(SporeStepSearch){.predicted_s = limit->predicted_s,
+                                                      .usual_s = usual_step(&predicted, limit->step_s),
+                                                      .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
+                                                      .cuts = study->options->quick ? QUICK_CUTS : CUTS},
+                                   is_safe, search);
+  return search->end != SEARCH_FAILED;
+}
+
 static bool find_limit(Study *study, SporeWorld *world, uint32_t body, SporeIntegratorKind kind,
                        const SporeMethod *method) {
   SporeStabilityReport *report = study->report;
   const char *name = spore_world_body_name(world, body);
-  bool quick = study->options->quick, own = kind == kind_of(method->integrator.name);
-  char what[200];
-  if (is_late(study, UNTIL_LIMITS)) {
-    leave_out(study, _("no time; give it more by --seconds"), largest_step_of(name, what, sizeof what));
-    return true;
-  }
   SporeStabilityLimit *limit = &report->limits[report->limit_count];
   *limit = (SporeStabilityLimit){.body = spore_copy_text(name),
                                  .method = kind,
-                                 .own = own,
+                                 .own = kind == kind_of(method->integrator.name),
                                  .step_s = report->time_step_s / (double)method->substeps,
                                  .found = {.unsafe_s = HUGE_VAL},
-                                 .steps = quick ? QUICK_STEPS : LIMIT_STEPS};
-  SporeStepLimit predicted;
+                                 .steps = study->options->quick ? QUICK_STEPS : LIMIT_STEPS};
   report->limit_count++;
-  if (!limit->body || !spore_world_predict_step(world, body, kind, &predicted, study->error))
-    return no_memory(study->error);
-  limit->predicted_s = predicted.whole_dt_s;
   LimitSearch search = {.study = study, .world = world, .body = body, .limit = limit};
-  limit->found = spore_step_search(&(SporeStepSearch){.predicted_s = limit->predicted_s,
-                                                      .usual_s = usual_step(&predicted, limit->step_s),
-                                                      .largest_s = SPORE_STABILITY_LARGEST_STEP_S,
-                                                      .cuts = quick ? QUICK_CUTS : CUTS},
-                                   is_safe, &search);
-  if (search.nothing) {
-    leave_out(study, _("nothing of it moves at the start"), largest_step_of(name, what, sizeof what));
+  bool done = search_limit(&search);
+  if (search.end == SEARCH_LATE) leave_limit_out(study, _("no time; give it more by --seconds"), name, kind);
+  if (search.end == SEARCH_NOTHING) leave_limit_out(study, _("nothing of it moves at the start"), name, kind);
+  if (search.end == SEARCH_LATE || search.end == SEARCH_NOTHING) {
     spore_free(limit->body);
     report->limit_count--;
   }
-  return !search.failed;
+  return done;
 }
 
-/* The body by its own method, or also by all others that take steps in time. */
-static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, const SporeMethod *method) {
-  SporeIntegratorKind own = kind_of(method->integrator.name);
-  char what[200];
-  const char *name = spore_world_body_name(world, body);
-  if (own == SPORE_INTEGRATOR_STATIC)
-    leave_out(study, _("static finds a balance, and takes no step in time"), largest_step_of(name, what, sizeof what));
-  else if (!find_limit(study, world, body, own, method)) return false;
-  if (study->options->quick) return true;
-  for (int kind = 0; kind < SPORE_INTEGRATOR_STATIC; kind++)
-    if (kind != (int)own && !find_limit(study, world, body, (SporeIntegratorKind)kind, method)) return false;
+/* The body by its own method, or by all others that take steps in time. */
+static bool find_limits_of(Study *study, SporeWorld *world, uint32_t body, bool own) {
+  SporeMethod method;
+  if (!spore_world_body_method(world, body, &method)) return true;
+  SporeIntegratorKind chosen = kind_of(method.integrator.name);
+  if (own && chosen != SPORE_INTEGRATOR_STATIC) return find_limit(study, world, body, chosen, &method);
+  if (own)
+    leave_limit_out(study, _("static finds a balance, and takes no step in time"), spore_world_body_name(world, body),
+                    chosen);
+  for (int kind = 0; !own && kind < SPORE_INTEGRATOR_STATIC; kind++)
+    if (kind != (int)chosen && !find_limit(study, world, body, (SporeIntegratorKind)kind, &method)) return false;
   return true;
 }
 
 static bool find_limits(Study *study, SporeWorld *world) {
+  uint32_t count = (uint32_t)spore_world_body_count(world);
+  for (uint32_t body = 0; body < count; body++)
+    if (!go_on(study, 1, _("the largest steps")) || !find_limits_of(study, world, body, true)) return false;
   if (study->options->quick)
     leave_out(study, _("not with --quick"), _("largest steps by other methods than each body's own"));
-  for (uint32_t body = 0; body < spore_world_body_count(world); body++) {
-    SporeMethod method;
-    if (!spore_world_body_method(world, body, &method)) continue;
-    if (!go_on(study, 1, _("the largest steps")) || !find_limits_of(study, world, body, &method)) return false;
-  }
+  for (uint32_t body = 0; !study->options->quick && body < count; body++)
+    if (!go_on(study, 0, _("the largest steps")) || !find_limits_of(study, world, body, false)) return false;
   return true;
 }
 

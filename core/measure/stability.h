@@ -89,7 +89,7 @@ typedef struct SporeStabilityReport {
   size_t steps;       /* of a case, in steps of the scene */
   size_t contacts;    /* most at once, in the case where nothing is changed */
   bool instruments;   /* the scene has some that a device may move */
-  bool met;           /* in that case an instrument felt a force */
+  bool met;           /* within these steps an instrument feels a force in that case */
   size_t case_count, limit_count, left_out_count;
   SporeStabilityCase *cases;
   SporeStabilityLimit *limits;

@@ -174,7 +174,7 @@ static bool finite_all(const double *values, size_t count) {
   return true;
 }
 
-static SporeMethodResult run(Trial *trial, size_t steps) {
+static SporeMethodResult run(Trial *trial, size_t steps, const SporeCancel *cancel) {
   size_t n = trial->island.v_count, q_count = trial->island.q_count;
   SporeHistory history = {.a = trial->scratch, .b = trial->scratch + n};
   SporeMethodResult result = {.outcome = SPORE_METHOD_BOUNDED};
@@ -187,7 +187,7 @@ static SporeMethodResult run(Trial *trial, size_t steps) {
     const double *q = trial->q[1 - i % 2], *v = trial->v[1 - i % 2];
     trial->world->state.step++;
     result.steps++;
-    if (spore_cancel_asked(trial->world->cancel)) result.outcome = SPORE_METHOD_CANCELLED;
+    if (spore_cancel_asked(trial->world->cancel) || spore_cancel_asked(cancel)) result.outcome = SPORE_METHOD_CANCELLED;
     else if (!finite_all(q, q_count) || !finite_all(v, n)) result.outcome = SPORE_METHOD_NOT_FINITE;
     else if (!step.converged) result.outcome = SPORE_METHOD_NOT_SOLVED;
     else if (!enter(trial, &account, q, v, i >= steps / 2)) result.outcome = SPORE_METHOD_GREW;
@@ -220,7 +220,7 @@ SporeMethodResult spore_world_try_method(SporeWorld *world, uint32_t index, cons
     memcpy(trial.q[0], world->state.q + body->q_offset, body->q_count * sizeof(double));
     memcpy(trial.v[0], world->state.v + body->v_offset, 3 * body->block_count * sizeof(double));
     push(&trial, limit.frequency);
-    result = run(&trial, how->steps);
+    result = run(&trial, how->steps, how->cancel);
   }
   free_trial(&trial);
   world->state.step = 0;

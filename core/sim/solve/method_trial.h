@@ -21,6 +21,7 @@ typedef struct SporeMethodTrial {
   SporeIntegratorKind integrator; /* not static, which takes no steps in time */
   double step_s;                  /* of the integrator */
   size_t steps;
+  const SporeCancel *cancel; /* asked after each step, beside the world's; NULL: none */
 } SporeMethodTrial;
 
 typedef struct SporeMethodResult {
