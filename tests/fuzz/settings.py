@@ -9,7 +9,6 @@ says what is wrong in a line; the result does not depend on the number of thread
   settings.py SPORE SCENES [--runs N] [--seed S] [--seconds S]   the long run: --runs 10000, sanitized, a few hours
 """
 import argparse
-import functools
 import json
 import pathlib
 import random
@@ -100,12 +99,6 @@ def settings(scene, known, random_):
     return arguments
 
 
-@functools.lru_cache
-def is_sanitized(spore):
-    """A sanitized program reserves more memory than any limit, and is many times slower."""
-    return b"__asan_init" in pathlib.Path(spore).read_bytes()
-
-
 def run(spore, scene, arguments, seconds, threads=1):
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
@@ -114,7 +107,7 @@ def run(spore, scene, arguments, seconds, threads=1):
     command = [spore, "run", str(scene), "--json", "--steps", str(STEPS), "--threads", str(threads), "--output", str(NUMBERS),
                "--quantities", "energy", *arguments]
     return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=seconds, check=False,
-                          preexec_fn=None if is_sanitized(spore) else limit)
+                          preexec_fn=None if tap.is_sanitized(spore) else limit)
 
 
 def run_within(spore, scene, arguments, seconds):
@@ -203,7 +196,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=600, help="after which a run counts as hanging")
     options = parser.parse_args()
-    options.runs = options.runs or (46 if is_sanitized(options.spore) else 200)
+    options.runs = options.runs or (46 if tap.is_sanitized(options.spore) else 200)
     schema = subprocess.run([options.spore, "schema"], capture_output=True, text=True, check=True).stdout
     known = attributes(ET.fromstring(schema))
     files = sorted(options.scenes.glob("*.spore"))

@@ -12,6 +12,7 @@ import time
 
 APPLICATION, WINDOW = "org.spore.Editor", "/org/spore/Editor/window/1"
 PATIENCE_S = 30
+ROLES = 128  # that a query can name
 WRONG = ("CRITICAL", "from markup")  # that GTK never has reason to say
 
 
@@ -52,16 +53,17 @@ def run_privately(script, arguments):
 def wait(condition, what, seconds=PATIENCE_S):
     """Waits until condition() is true and gives what it gave; the buses are served meanwhile."""
     from gi.repository import GLib
-    end = time.monotonic() + seconds
+    start = time.monotonic()
     while True:
         answer = condition()
         if answer:
             return answer
-        if time.monotonic() > end:
+        waited = time.monotonic() - start
+        if waited > seconds:
             raise AssertionError(f"waited {seconds} s in vain for {what}")
         while GLib.MainContext.default().iteration(False):
             pass
-        time.sleep(0.05)
+        time.sleep(min(max(0.05, 0.1 * waited), 0.5))  # to ask is work, for the editor too
 
 
 class Editor:
@@ -167,12 +169,33 @@ class Editor:
         """First widget of that role (a regular expression too) whose name, or label, matches the regular expression; showing: not scrolled away."""
         return wait(lambda: self.look(role, name, showing), f"a {role} “{name}”", seconds)
 
+    def nodes(self, role, showing=True):
+        """Widgets whose role matches the regular expression, in the order of the tree. The editor finds them by itself, in one call:
+        to walk the tree takes one or more for each of hundreds of widgets."""
+        atspi = self.atspi
+        roles = [one for one in map(atspi.Role, range(ROLES)) if re.fullmatch(role, atspi.role_get_name(one))]
+        states = atspi.StateSet.new([atspi.StateType.SHOWING] if showing else [])
+        kind = atspi.CollectionMatchType
+        rule = atspi.MatchRule.new(states, kind.ALL, {}, kind.ALL, roles, kind.ANY, [], kind.ALL, False)
+        found = wait(lambda: self._matches(rule), "the editor to say what it shows")[0]
+        for node in found:
+            node.clear_cache()
+        return found
+
+    def _matches(self, rule):
+        """([node, ...],), or None: it was too busy to answer."""
+        from gi.repository import GLib
+        try:
+            return (self.atspi.Collection.get_matches(self.application, rule, self.atspi.CollectionSortOrder.CANONICAL, 0, True),)
+        except GLib.Error:
+            if self.process.poll() is not None:
+                raise
+            return None
+
     def look(self, role, name, showing=True):
-        self.application.clear_cache()
-        for node in self.walk():
+        for node in self.nodes(role, showing):
             try:
-                if re.fullmatch(role, node.get_role_name()) and re.search(name, self.name_of(node)) and (
-                        self.showing(node) or not showing):
+                if re.search(name, self.name_of(node)):
                     return node
             except Exception:  # it went while we looked
                 continue
@@ -213,20 +236,18 @@ class Editor:
 
     def message(self):
         """What the message bar says, or None."""
-        for node in self.walk():
-            if node.get_role_name() == "info bar" and self.showing(node):
-                for label in self.walk(node):
-                    if label.get_role_name() == "label" and label.get_name():
-                        return label.get_name()
+        for node in self.nodes("info bar"):
+            for label in self.walk(node):
+                if label.get_role_name() == "label" and label.get_name():
+                    return label.get_name()
         return None
 
     def hud(self, pattern):
         """First group of the pattern in the figures over the viewport, as a number; None: not there."""
-        self.application.clear_cache()
-        for node in self.walk():
-            if node.get_role_name() == "label" and (node.get_name() or "").startswith("Time "):
+        for node in self.nodes("label"):
+            if (node.get_name() or "").startswith("Time "):
                 found = re.search(pattern, node.get_name())
-                return float(found.group(1)) if found and self.showing(node) else None
+                return float(found.group(1)) if found else None
         return None
 
     def time_s(self):
