@@ -69,6 +69,7 @@ class Ladder:
     """A program that is told the number of steps; the substeps of a setting are counted as steps."""
 
     refuses_work = False  # what it refuses is too large a step: more of them may do
+    patience = 0.5        # of the longest run that is tried: after a longer one the number of steps is not doubled again
 
     def __init__(self, program):
         self.program = program
@@ -86,12 +87,13 @@ class Tolerances(Ladder):
     """CVODE chooses its steps itself: a rung is one over its tolerance."""
 
     refuses_work = True
+    patience = 4  # its work hardly grows with what is asked of it
 
     def rung(self, setting, quarters):
         return 10 * 2 ** quarters  # a method of fifth order: 16 times as near for twice the steps
 
     def options(self, setting, rung):
-        return {**setting, "steps": FRAMES, "tolerance": 1 / rung, "limit": 1}
+        return {**setting, "steps": FRAMES, "tolerance": 1 / rung, "limit": 2}
 
 
 class Runs:
@@ -120,7 +122,7 @@ class Runs:
         """Doubles the steps until the last target is reached or the time is up."""
         for doubling in range(24):
             cpu_s, error, _ = self.run(index, self.ladder.rung(self.settings[index], 4 * doubling))
-            long = cpu_s > self.case.most_cpu_s / 2
+            long = cpu_s > self.ladder.patience * self.case.most_cpu_s
             if error <= TARGETS[-1] or (long and (cpu_s < math.inf or self.ladder.refuses_work)):
                 return
 
