@@ -18,13 +18,14 @@ import kernel
 import sofa
 import kernels
 import peers
+import precision
 import solids
 import solvers
 import surface
 import table
 import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **authoring.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **precision.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **authoring.BENCHES, **editor.BENCHES}
 
 
 def main():

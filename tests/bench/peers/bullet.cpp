@@ -88,24 +88,24 @@ static void cloth(CaseRun *run) {
 
 static void bar(CaseRun *run) {
   Deformable deformable(case_number(run, "implicit", 1) != 0);
-  std::vector<btVector3> points(BAR_NODES);
-  for (unsigned i = 0; i < BAR_NODES; i++) {
+  std::vector<btVector3> points(bar_nodes(1));
+  for (unsigned i = 0; i < points.size(); i++) {
     double x[3];
-    bar_node(i, x);
+    bar_node(1, i, x);
     points[i] = btVector3(x[0], x[1], x[2]);
   }
-  btSoftBody *body = new btSoftBody(&deformable.world.getWorldInfo(), BAR_NODES, points.data(), nullptr);
-  std::vector<double> mass(BAR_NODES);
-  for (unsigned t = 0; t < BAR_TETRAHEDRA; t++) {
+  btSoftBody *body = new btSoftBody(&deformable.world.getWorldInfo(), (int)points.size(), points.data(), nullptr);
+  std::vector<double> mass(points.size());
+  for (unsigned t = 0; t < bar_tetrahedra(1); t++) {
     unsigned n[4];
-    bar_tetrahedron(t, n);
+    bar_tetrahedron(1, t, n);
     const btVector3 &a = points[n[0]], &b = points[n[1]], &c = points[n[2]], &d = points[n[3]];
     double volume = btDot(b - a, btCross(c - a, d - a)) / 6;
     for (unsigned corner : n) mass[corner] += BAR_DENSITY * volume / 4;
     body->appendTetra(n[0], n[1], n[2], n[3]);
   }
   prepare(body);
-  for (unsigned i = 0; i < BAR_NODES; i++) body->setMass(i, points[i].x() == 0 ? 0 : mass[i]);
+  for (unsigned i = 0; i < points.size(); i++) body->setMass(i, points[i].x() == 0 ? 0 : mass[i]);
   body->initializeDmInverse();
   body->m_tetraScratches.resize(body->m_tetras.size());
   body->m_tetraScratchesTn.resize(body->m_tetras.size());

@@ -26,6 +26,18 @@ enum { CLOTH_NODES = 20 };
 #define CLOTH_MASS 1.0     /* kg */
 #define CLOTH_DAMPING 0.01 /* N s/m, of each spring, along it */
 
+/* Net: nodes and springs of the cloth, laid flat, drawn out by NET_STRETCH, held along all sides and let go onto four
+ * balls that do not move. Not drawn out it would fold between the balls, and nobody's answer could be told from
+ * another's. Nodes touch the balls without friction: a spring for the depth, of NET_CONTACT N/m. The balls stand where
+ * no symmetry is. */
+enum { NET_BALLS = 4 };
+#define NET_STRETCH 1.2
+#define NET_NODE_RADIUS 0.01 /* m */
+#define NET_BALL_RADIUS 0.2
+#define NET_CONTACT 100.0
+static const double net_ball[NET_BALLS][3] = {
+    {-0.21, -0.22, -0.19}, {0.17, -0.23, -0.2}, {-0.18, -0.225, 0.16}, {0.2, -0.22, 0.22}};
+
 /* Rope: nodes in a row along x, the first held. */
 enum { ROPE_NODES = 64 };
 #define ROPE_LENGTH 1.0 /* m */
@@ -63,25 +75,40 @@ static inline void cloth_node(unsigned i, double x[3]) {
   x[2] = i / CLOTH_NODES * CLOTH_SIDE * CLOTH_ASIDE / (CLOTH_NODES - 1);
 }
 
-/* Corners of tetrahedron t of the bar: the six paths along the edges of a cell from its first corner to its last. */
-enum {
-  BAR_NODES = (BAR_CELLS_X + 1) * (BAR_CELLS_Y + 1) * (BAR_CELLS_Z + 1),
-  BAR_TETRAHEDRA = 6 * BAR_CELLS_X * BAR_CELLS_Y * BAR_CELLS_Z
-};
-static inline void bar_tetrahedron(unsigned t, unsigned corners[4]) {
+/* As it is without tension. */
+static inline void net_node(unsigned i, double x[3]) {
+  x[0] = (i % CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
+  x[1] = 0;
+  x[2] = (i / CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
+}
+static inline int net_is_held(unsigned i) {
+  unsigned column = i % CLOTH_NODES, row = i / CLOTH_NODES;
+  return column == 0 || row == 0 || column == CLOTH_NODES - 1 || row == CLOTH_NODES - 1;
+}
+
+/* Corners of tetrahedron t of the bar: the six paths along the edges of a cell from its first corner to its last. Each
+ * cell may be divided in `parts` a side. */
+static inline unsigned bar_nodes(unsigned parts) {
+  return (parts * BAR_CELLS_X + 1) * (parts * BAR_CELLS_Y + 1) * (parts * BAR_CELLS_Z + 1);
+}
+static inline unsigned bar_tetrahedra(unsigned parts) {
+  return 6 * BAR_CELLS_X * BAR_CELLS_Y * BAR_CELLS_Z * parts * parts * parts;
+}
+static inline void bar_tetrahedron(unsigned parts, unsigned t, unsigned corners[4]) {
   static const unsigned char paths[6][4] = {{0, 4, 6, 7}, {0, 6, 2, 7}, {0, 2, 3, 7},
                                             {0, 3, 1, 7}, {0, 1, 5, 7}, {0, 5, 4, 7}};
-  unsigned cell = t / 6, i = cell / (BAR_CELLS_Y * BAR_CELLS_Z), j = cell / BAR_CELLS_Z % BAR_CELLS_Y;
-  unsigned k = cell % BAR_CELLS_Z;
+  unsigned across_y = parts * BAR_CELLS_Y, across_z = parts * BAR_CELLS_Z, cell = t / 6;
+  unsigned i = cell / (across_y * across_z), j = cell / across_z % across_y, k = cell % across_z;
   for (int c = 0; c < 4; c++) {
     unsigned n = paths[t % 6][c];
-    corners[c] = ((i + n / 4) * (BAR_CELLS_Y + 1) + j + n / 2 % 2) * (BAR_CELLS_Z + 1) + k + n % 2;
+    corners[c] = ((i + n / 4) * (across_y + 1) + j + n / 2 % 2) * (across_z + 1) + k + n % 2;
   }
 }
-static inline void bar_node(unsigned i, double x[3]) {
-  x[0] = i / ((BAR_CELLS_Y + 1) * (BAR_CELLS_Z + 1)) * BAR_LENGTH / BAR_CELLS_X;
-  x[1] = i / (BAR_CELLS_Z + 1) % (BAR_CELLS_Y + 1) * BAR_THICKNESS / BAR_CELLS_Y;
-  x[2] = i % (BAR_CELLS_Z + 1) * BAR_THICKNESS / BAR_CELLS_Z;
+static inline void bar_node(unsigned parts, unsigned i, double x[3]) {
+  unsigned across_y = parts * BAR_CELLS_Y, across_z = parts * BAR_CELLS_Z;
+  x[0] = i / ((across_y + 1) * (across_z + 1)) * BAR_LENGTH / (parts * BAR_CELLS_X);
+  x[1] = i / (across_z + 1) % (across_y + 1) * BAR_THICKNESS / across_y;
+  x[2] = i % (across_z + 1) * BAR_THICKNESS / across_z;
 }
 
 typedef struct CaseRun {

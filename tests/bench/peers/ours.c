@@ -98,22 +98,55 @@ static void build(Rig *rig) {
   if (!rig_try_build(rig, &error)) refuse(&error);
 }
 
-static void cloth(CaseRun *run) {
+/* The cloth with its nodes where `place` says. */
+static void add_cloth(CaseRun *run, Rig *rig, void (*place)(unsigned, double[3]), const SporeSphereSet *spheres) {
   SporeTriangleMesh mesh;
   g_assert_true(spore_triangle_mesh_allocate(&mesh, CLOTH_NODES * CLOTH_NODES, CLOTH_TRIANGLES, NULL));
-  for (unsigned i = 0; i < CLOTH_NODES * CLOTH_NODES; i++) cloth_node(i, mesh.vertices + 3 * i);
+  for (unsigned i = 0; i < CLOTH_NODES * CLOTH_NODES; i++) place(i, mesh.vertices + 3 * i);
   for (unsigned t = 0; t < CLOTH_TRIANGLES; t++) cloth_triangle(t, mesh.triangles + 3 * t);
-  Rig *rig = begin(run, "symplectic_euler");
   SporeModel *model = rig_surface_model(&spore_mass_spring_net, &mesh, "mass", CLOTH_MASS, "structural_stiffness",
                                         case_number(run, "stiffness", 100), "shear_stiffness", 0.0, "bending_stiffness",
                                         0.0, "damping", CLOTH_DAMPING, NULL);
-  rig_passive(rig, "cloth", model, NULL);
+  rig_passive(rig, "cloth", model, spheres);
+}
+
+static void cloth(CaseRun *run) {
+  Rig *rig = begin(run, "symplectic_euler");
+  add_cloth(run, rig, cloth_node, NULL);
   for (unsigned i = 0; i < CLOTH_NODES; i++) {
     double held[3];
     cloth_node(i, held);
     rig_pin(rig, 0, spore_vec3_load(held), 1e-3);
   }
   build(rig);
+  finish(run, rig);
+}
+
+/* Contact springs of both sides are in series. */
+static void add_net_and_balls(CaseRun *run, Rig *rig) {
+  const SporeContactFields contact = {.stiffness = 2 * NET_CONTACT};
+  double points[3 * CLOTH_NODES * CLOTH_NODES];
+  for (unsigned i = 0; i < CLOTH_NODES * CLOTH_NODES; i++) {
+    net_node(i, points + 3 * i);
+    if (net_is_held(i)) rig_pin(rig, 0, spore_vec3_load(points + 3 * i), 1e-3);
+  }
+  add_cloth(run, rig, net_node, rig_spheres(rig, points, CLOTH_NODES * CLOTH_NODES, NET_NODE_RADIUS));
+  g_array_index(rig->bodies, SporeBodyDescription, 0).contact = contact;
+  for (int b = 0; b < NET_BALLS; b++) {
+    SporeBodyDescription *ball = rig_unmovable(rig, "ball", rig_sphere(rig, NET_BALL_RADIUS));
+    ball->pose.position = spore_vec3_load(net_ball[b]);
+    ball->contact = contact;
+  }
+}
+
+static void net(CaseRun *run) {
+  Rig *rig = begin(run, "symplectic_euler");
+  double x[3 * CLOTH_NODES * CLOTH_NODES], v[3 * CLOTH_NODES * CLOTH_NODES] = {0};
+  add_net_and_balls(run, rig);
+  build(rig);
+  memcpy(x, spore_world_q(rig->world, 0), sizeof x);
+  for (size_t i = 0; i < sizeof x / sizeof *x; i++) x[i] *= NET_STRETCH;
+  spore_world_set_state(rig->world, 0, x, v);
   finish(run, rig);
 }
 
@@ -130,19 +163,27 @@ static void rope(CaseRun *run) {
   finish(run, rig);
 }
 
-static void bar(CaseRun *run) {
+static SporeModel *make_bar(const CaseRun *run, unsigned parts) {
   SporeTetrahedralMesh mesh;
-  g_assert_true(spore_tetrahedral_mesh_allocate(&mesh, BAR_NODES, BAR_TETRAHEDRA, NULL));
-  for (unsigned i = 0; i < BAR_NODES; i++) bar_node(i, mesh.vertices + 3 * i);
-  for (unsigned t = 0; t < BAR_TETRAHEDRA; t++) bar_tetrahedron(t, mesh.tetrahedra + 4 * t);
+  g_assert_true(spore_tetrahedral_mesh_allocate(&mesh, bar_nodes(parts), bar_tetrahedra(parts), NULL));
+  for (unsigned i = 0; i < mesh.vertex_count; i++) bar_node(parts, i, mesh.vertices + 3 * i);
+  for (unsigned t = 0; t < mesh.tetrahedron_count; t++) bar_tetrahedron(parts, t, mesh.tetrahedra + 4 * t);
+  bool neo_hookean = !strcmp(case_word(run, "law", "corotational"), "neo_hookean");
+  return rig_solid_model(neo_hookean ? &spore_neo_hookean_tetrahedra : &spore_corotational_tetrahedra, &mesh,
+                         "young_modulus", BAR_YOUNG_MODULUS, "poisson_ratio",
+                         case_number(run, "poisson_ratio", BAR_POISSON_RATIO), "density", BAR_DENSITY,
+                         "stiffness_damping", case_number(run, "viscosity", BAR_VISCOSITY), NULL);
+}
+
+static void bar(CaseRun *run) {
+  unsigned parts = (unsigned)case_number(run, "parts", 1);
   Rig *rig = begin(run, "implicit_euler");
-  SporeModel *model =
-      rig_tetrahedra_model(&mesh, "young_modulus", BAR_YOUNG_MODULUS, "poisson_ratio", BAR_POISSON_RATIO, "density",
-                           BAR_DENSITY, "stiffness_damping", BAR_VISCOSITY, NULL);
-  rig_passive(rig, "bar", model, NULL);
-  for (int j = 0; j <= BAR_CELLS_Y; j++)
-    for (int k = 0; k <= BAR_CELLS_Z; k++)
-      rig_pin(rig, 0, spore_vec3(0, j * BAR_THICKNESS / BAR_CELLS_Y, k * BAR_THICKNESS / BAR_CELLS_Z), 1e-3);
+  rig_passive(rig, "bar", make_bar(run, parts), NULL);
+  for (unsigned i = 0; i < bar_nodes(parts); i++) {
+    double x[3];
+    bar_node(parts, i, x);
+    if (x[0] == 0) rig_pin(rig, 0, spore_vec3_load(x), 1e-3);
+  }
   build(rig);
   finish(run, rig);
 }
@@ -224,6 +265,7 @@ int main(int argc, char **argv) {
   CaseRun run = case_begin(argc, argv);
   const char *name = argc > 1 ? argv[1] : "";
   if (!strcmp(name, "cloth")) cloth(&run);
+  else if (!strcmp(name, "net")) net(&run);
   else if (!strcmp(name, "bar")) bar(&run);
   else if (!strcmp(name, "rope")) rope(&run);
   else if (!strcmp(name, "pile")) pile(&run);

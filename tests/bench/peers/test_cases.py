@@ -37,6 +37,12 @@ def cloth(program):
 
 
 @check
+def net(program):
+    """the net falls towards its balls"""
+    falls(program, "net", 400, "steps=4", "time=0.004")
+
+
+@check
 def rope(program):
     """the rope falls"""
     falls(program, "rope", 64, "steps=4", "time=0.001")

@@ -95,12 +95,12 @@ static unsigned troubles(const SporeWorld *world) {
   return (unsigned)(monitor->not_converged + monitor->recoveries);
 }
 
-static Outcome measure(const Case *self, unsigned steps) {
+static Outcome measure(const Case *self, unsigned steps, double tolerance) {
   double *ms = g_new(double, steps);
   Outcome outcome = {0};
   for (unsigned i = 0; i < steps; i++) ms[i] = HUGE_VAL;
   for (unsigned repeat = 0; repeat < repeats; repeat++) {
-    Rig *rig = start(self, 1e-6);
+    Rig *rig = start(self, tolerance);
     rig_run(rig->world, MIN(self->before, steps_at_most));
     unsigned before = troubles(rig->world);
     for (unsigned i = 0; i < steps; i++) {
@@ -186,14 +186,35 @@ static void print_number(const char *name, double value) {
   else printf(", \"%s\": null", name);
 }
 
+/* Ours stopped as soon as its error is no larger than SOFA's: the loosest tolerance that keeps to that, and what its
+ * steps cost. */
+static void compare_stopped(const Case *self, unsigned steps, const End *exact, double error_peer) {
+  for (double tolerance = 0.1; tolerance > 1e-6; tolerance /= 2) {
+    End stopped = solved(self, steps, tolerance);
+    double error = distance(&stopped, exact);
+    g_free(stopped.q);
+    if (error > error_peer) continue;
+    Outcome outcome = measure(self, steps, tolerance);
+    print_number("stopped_ours", outcome.ms);
+    print_number("stopped_tolerance", tolerance);
+    print_number("stopped_error", error);
+    print_number("stopped_hardware", hardware_ms(self, &outcome));
+    print_number("stopped_newton", outcome.newton);
+    print_number("stopped_linear", outcome.linear);
+    return;
+  }
+}
+
 static void compare_truncated(const Case *self, unsigned steps) {
   double residual;
   End exact = solved(self, steps, 1e-9), ours = solved(self, steps, 1e-6), sofa = truncated(self, steps, &residual);
+  double error_peer = distance(&sofa, &exact);
   print_number("error_ours", distance(&ours, &exact));
-  print_number("error_peer", distance(&sofa, &exact));
+  print_number("error_peer", error_peer);
   print_number("height_ours", ours.height);
   print_number("height_peer", sofa.height);
   print_number("residual_peer", residual);
+  compare_stopped(self, steps, &exact, error_peer);
   g_free(exact.q);
   g_free(ours.q);
   g_free(sofa.q);
@@ -242,7 +263,7 @@ static void compare_steps(const Case *self) {
 
 static void run(const Case *self) {
   unsigned steps = MIN(self->steps, steps_at_most);
-  Outcome outcome = measure(self, steps);
+  Outcome outcome = measure(self, steps, 1e-6);
   printf("{\"case\": \"%s\", \"sofa\": \"%s\"", self->name, self->sofa);
   print_number("ours", outcome.ms);
   print_number("peer", self->sofa_ms);
