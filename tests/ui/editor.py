@@ -245,8 +245,12 @@ class Editor:
     def hud(self, pattern):
         """First group of the pattern in the figures over the viewport, as a number; None: not there."""
         for node in self.nodes("label"):
-            if (node.get_name() or "").startswith("Time "):
-                found = re.search(pattern, node.get_name())
+            try:
+                name = node.get_name() or ""
+            except Exception:  # it went while we looked
+                continue
+            if name.startswith("Time "):
+                found = re.search(pattern, name)
                 return float(found.group(1)) if found else None
         return None
 
