@@ -7,6 +7,11 @@
 #include "core/constraint/pin.h"
 #include "core/scene/schema_fields.h"
 
+#define MOST_SAMPLES 500 /* that are looked at together */
+#define CLOSE_LOOKS 3
+#define CLOSE 0.03      /* of the radius */
+#define NEGLIGIBLE 1e-9 /* weight */
+
 /* A sheet and its pin, in the world. */
 typedef struct Pinned {
   const SporeModel *model;
@@ -16,42 +21,53 @@ typedef struct Pinned {
   uint8_t *held; /* one a control point */
 } Pinned;
 
-static double distance_to(const Pinned *pinned, const double *sample) {
-  return spore_vec3_distance(spore_pose_apply(pinned->pose, spore_vec3_load(sample)), pinned->centre);
+static double depth_of(const Pinned *pinned, const double *sample) {
+  return pinned->radius - spore_vec3_distance(spore_pose_apply(pinned->pose, spore_vec3_load(sample)), pinned->centre);
 }
 
-/* Moves the samples within the radius to the front; their number. *farthest: distance of the farthest sample. */
-static gsize keep_within(const Pinned *pinned, double *samples, gsize count, double *farthest) {
-  gsize kept = 0;
-  *farthest = 0;
-  for (gsize i = 0; i < count; i++) {
-    double distance = distance_to(pinned, samples + 3 * i);
-    *farthest = fmax(*farthest, distance);
-    if (distance > pinned->radius) continue;
-    for (int k = 0; k < 3; k++) samples[3 * kept + (gsize)k] = samples[3 * i + (gsize)k];
-    kept++;
-  }
-  return kept;
-}
-
+/* Whether all control points that weigh on point i are held. */
 static gboolean stands_still(const Pinned *pinned, const SporeMapping *mapping, gsize i) {
   for (uint32_t k = mapping->row_start[i]; k < mapping->row_start[i + 1]; k++)
-    if (!pinned->held[mapping->block[k]]) return FALSE;
+    if (fabs(mapping->weight[k]) > NEGLIGIBLE && !pinned->held[mapping->block[k]]) return FALSE;
   return TRUE;
 }
 
-static gboolean measure_samples(const Pinned *pinned, double *samples, gsize count, SporePinnedSheet *measured) {
-  double farthest;
+/* Looks at samples at a depth from `least` to `most` within the radius, evenly spread where there are many. FALSE:
+ * there are none, or there is no memory. */
+static gboolean look_at(const Pinned *pinned, const double *samples, gsize count, double least, double most,
+                        SporePinnedSheet *measured) {
+  g_autoptr(GArray) chosen = g_array_new(FALSE, FALSE, 3 * sizeof(double));
+  gsize found = 0;
+  for (int pass = 0; pass < 2; pass++) { /* the first counts */
+    gsize stride = found / MOST_SAMPLES + 1, index = 0;
+    for (gsize i = 0; i < count; i++) {
+      double depth = depth_of(pinned, samples + 3 * i);
+      if (!(depth >= least && depth <= most)) continue;
+      if (pass == 0) found++;
+      else if (index++ % stride == 0) g_array_append_vals(chosen, samples + 3 * i, 1);
+    }
+  }
   SporeMapping mapping;
-  gsize within = keep_within(pinned, samples, count, &farthest);
-  measured->free_m = farthest - pinned->radius;
-  if (within == 0) return FALSE;
-  if (!pinned->model->type->map(pinned->model, samples, within, &mapping, NULL)) return FALSE;
-  for (gsize i = 0; i < within; i++) {
+  const double *points = (const double *)(const void *)chosen->data;
+  if (chosen->len == 0) return FALSE;
+  if (!pinned->model->type->map(pinned->model, points, chosen->len, &mapping, NULL)) return FALSE;
+  for (gsize i = 0; i < chosen->len; i++) {
     if (stands_still(pinned, &mapping, i)) measured->still = TRUE;
-    else measured->moves_m = fmax(measured->moves_m, pinned->radius - distance_to(pinned, samples + 3 * i));
+    else measured->moves_m = fmax(measured->moves_m, depth_of(pinned, points + 3 * i));
   }
   spore_mapping_clear(&mapping);
+  return TRUE;
+}
+
+/* First everywhere, then closely where the deepest place that moves was found. */
+static gboolean measure_samples(const Pinned *pinned, const double *samples, gsize count, SporePinnedSheet *measured) {
+  double farthest = 0;
+  for (gsize i = 0; i < count; i++) farthest = fmax(farthest, -depth_of(pinned, samples + 3 * i));
+  measured->free_m = farthest;
+  double most = pinned->radius;
+  if (!look_at(pinned, samples, count, 0, most, measured)) return FALSE;
+  for (int i = 0; i < CLOSE_LOOKS; i++)
+    look_at(pinned, samples, count, measured->moves_m, measured->moves_m + CLOSE * most, measured);
   return TRUE;
 }
 

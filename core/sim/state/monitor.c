@@ -86,6 +86,21 @@ static void report_notice(SporeWorld *world, SporeBody *body) {
   spore_world_report(world, "%s: %s", body->name, notice);
 }
 
+/* Counts a step that another integrator took for the body, and says so the first time. Bodies of several methods that
+ * touch or are tied may need that in most steps, as where light parts rub, and nothing else of the step shows it. */
+static void count_stood_in(SporeWorld *world, const SporeIsland *island, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  const SporeUnsolvedCount *count = &world->state.unsolved[index * SPORE_UNSOLVED_CAUSES + SPORE_UNSOLVED_STOOD_IN];
+  if (count->steps == 0)
+    spore_world_report(world,
+                       island->body_count > 1
+                           ? _("%s: %s takes steps that %s cannot take with what touches or ties it; %s")
+                           : _("%s: %s takes steps that %s cannot take; %s"),
+                       body->name, island->stand_in->name, spore_integrator(body->method.integrator)->name,
+                       spore_unsolved_remedy(SPORE_UNSOLVED_STOOD_IN));
+  spore_world_count_unsolved(world, index, SPORE_UNSOLVED_STOOD_IN, 0);
+}
+
 /* Counts bodies of the island that its step did not move as the scene is written. */
 static void count_island(SporeWorld *world, const SporeIsland *island) {
   bool wrong = island->trouble > SPORE_TROUBLE_NOT_CONVERGED;
@@ -96,8 +111,7 @@ static void count_island(SporeWorld *world, const SporeIsland *island) {
     spore_world_count_unsolved(world, island->offender, SPORE_UNSOLVED_RETAKEN, 0);
   for (size_t i = 0; island->stand_in && !wrong && i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
-    if (spore_integrator(world->bodies[b].method.integrator) != island->stand_in)
-      spore_world_count_unsolved(world, b, SPORE_UNSOLVED_STOOD_IN, 0);
+    if (spore_integrator(world->bodies[b].method.integrator) != island->stand_in) count_stood_in(world, island, b);
   }
 }
 

@@ -20,8 +20,9 @@ static const struct {
                                  N_("take a smaller time_step or less friction"), NULL},
     [SPORE_UNSOLVED_RETAKEN] = {N_("a step went wrong, and was taken again in smaller ones"),
                                 N_("take a smaller time_step"), NULL},
-    [SPORE_UNSOLVED_STOOD_IN] = {N_("another integrator took steps that the scene's could not take"),
-                                 N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
+    [SPORE_UNSOLVED_STOOD_IN] =
+        {N_("another integrator took steps that the scene's could not take"),
+         N_("take a smaller time_step or less friction, or choose implicit_euler for all but particles"), NULL},
     [SPORE_UNSOLVED_MODEL] = {N_("its model is not meant for what became of it, as its message says"),
                               N_("do what the message advises"), NULL},
     [SPORE_UNSOLVED_SAFER] = {N_("another integrator than the scene's moves it, since that one failed"),
@@ -34,7 +35,7 @@ static const struct {
     [SPORE_UNSOLVED_LEFT_OUT] = {N_("contacts are left out, perhaps its own: there is no memory for them"),
                                  N_("close other programs, or use fewer or smaller spheres"), ""},
     [SPORE_UNSOLVED_ENERGY] = {N_("explicit steps made more than a hundredth of its energy out of nothing"),
-                               N_("take a smaller time_step, or choose implicit_euler for it"), ""},
+                               N_("take a smaller time_step, or choose implicit_euler for all but particles"), ""},
     [SPORE_UNSOLVED_HALVES] =
         {N_("an explicit step and two of half its size are more than a quarter of its speed apart"),
          N_("take a smaller time_step or more substeps"), ""},
