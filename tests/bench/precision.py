@@ -68,6 +68,7 @@ def cases():
 class Ladder:
     """A program that is told the number of steps; the substeps of a setting are counted as steps."""
 
+    longest_s = math.inf  # a run is broken off there
     refuses_work = False  # what it refuses is too large a step: more of them may do
     patience = 0.5        # of the longest run that is tried: after a longer one the number of steps is not doubled again
 
@@ -86,6 +87,7 @@ class Ladder:
 class Tolerances(Ladder):
     """CVODE chooses its steps itself: a rung is one over its tolerance."""
 
+    longest_s = 2
     refuses_work = True
     patience = 4  # its work hardly grows with what is asked of it
 
@@ -93,7 +95,7 @@ class Tolerances(Ladder):
         return 10 * 2 ** quarters  # a method of fifth order: 16 times as near for twice the steps
 
     def options(self, setting, rung):
-        return {**setting, "steps": FRAMES, "tolerance": 1 / rung, "limit": 2}
+        return {**setting, "steps": FRAMES, "tolerance": 1 / rung, "limit": self.longest_s}
 
 
 class Runs:
@@ -235,10 +237,11 @@ def compare(p, case, target, ours, theirs, mine, other, name):
                least=5 if target <= 1e-3 else 1)
 
 
-def absent(name, case, best):
+def absent(name, case, best, ladder):
     if not best:
         return f"{name} gets there, ours does not"
-    return f"{name} does not get there in {case.most_cpu_s / case.time_s:g} s of work a second; ours in {best[0] / case.time_s:.2g}"
+    tried_s = min(ladder.longest_s, case.most_cpu_s * max(1, ladder.patience))
+    return f"{name} does not get there in {tried_s / case.time_s:g} s of work a second; ours in {best[0] / case.time_s:.2g}"
 
 
 def rows_of(p, case):
@@ -256,7 +259,7 @@ def rows_of(p, case):
             if best and other:
                 yield compare(p, case, target, ours, theirs, best, other, name)
             elif best or other:
-                print(f"bench: {case.label}, to {target:g}: {absent(name, case, best)}", file=sys.stderr)
+                print(f"bench: {case.label}, to {target:g}: {absent(name, case, best, ladder)}", file=sys.stderr)
 
 
 def in_words(rows):
