@@ -53,6 +53,7 @@ void spore_curve_joint_bend(SporeSpringTerm *term, const SporeSite *sites, const
   if (term->b.prescribed || joint->points || !(spore_vec3_dot(term->law.free, term->law.free) > 0)) return;
   SporeVec3 a = position_of(&term->a, sites, q);
   SporePathPlace place = spore_curve_joint_place(joint, q + sites[term->b.body].q, a);
+  if (spore_path_end(joint->knots, place.parameter) != 0) return; /* it stays at the end, however the path turns */
   double k = term->law.stiffness, square = spore_vec3_dot(place.slope, place.slope), speed = sqrt(square);
   SporeVec3 d = spore_spring_held(&term->law, spore_vec3_sub(a, place.position));
   double g = 1 - spore_vec3_dot(d, place.bend) / square;

@@ -28,6 +28,13 @@ typedef struct SporeEvaluation {
   double *q, *v, *f;
 } SporeEvaluation;
 
+/* How much of K an implicit step takes into its matrix, where forces bear and so may make K indefinite. */
+typedef enum SporeTangentForm {
+  SPORE_TANGENT_USUAL,   /* of bodies without what is indefinite, of links with it */
+  SPORE_TANGENT_WHOLE,   /* all of it */
+  SPORE_TANGENT_DEFINITE /* none that is indefinite */
+} SporeTangentForm;
+
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
@@ -54,6 +61,8 @@ typedef struct SporeDynamics {
   /* Assembles A = M + c D + c2 K at (q, v), D = -df/dv, K = -df/dq; multiply and precondition then stand for
    * this A. from: the q of the linearisation whose step led to this one, for SporeModelType.tangent, or NULL. */
   void (*linearise)(void *data, const double *q, const double *from, const double *v, double c, double c2);
+  /* What of K the next linearisations take; at first SPORE_TANGENT_USUAL. NULL: they have one form only. */
+  void (*take_tangent)(void *data, SporeTangentForm form);
   /* Whether that A is positive definite, as far as its factors tell. Where `held`, K in it is whole, and negative where
    * something buckles. */
   bool (*definite)(void *data);
@@ -85,6 +94,7 @@ typedef struct SporeDynamics {
   bool buckles;            /* A is the whole of some body's stiffness, which `definite` is asked about */
   bool held;               /* by pins, or by links to what does not follow from q */
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
+  double least_force;      /* likewise: what is less is no load, whatever the guess is; 0: anything is one */
 } SporeDynamics;
 
 #endif

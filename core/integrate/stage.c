@@ -14,6 +14,7 @@ typedef struct Stage {
   const SporeDynamics *dynamics;
   const double *qa, *va;
   double c;
+  const double *at; /* v of the linearisation */
   size_t linear_iterations;
   double *q, *v;        /* where it is linearised */
   double *from;         /* as q: of the linearisation before */
@@ -42,6 +43,19 @@ static void linearise(void *data, const double *v, const double *from) {
   if (from) dynamics->drift(dynamics->data, stage->qa, from, stage->c, stage->from, stage->v);
   dynamics->drift(dynamics->data, stage->qa, v, stage->c, stage->q, stage->v);
   dynamics->linearise(dynamics->data, stage->q, from ? stage->from : NULL, v, stage->c, stage->c * stage->c);
+  stage->at = v;
+}
+
+/* A is of this form, and what follows is of the usual one again. */
+static void linearise_by(Stage *stage, SporeTangentForm form, const double *v, const double *from) {
+  const SporeDynamics *dynamics = stage->dynamics;
+  dynamics->take_tangent(dynamics->data, form);
+  linearise(stage, v, from);
+  dynamics->take_tangent(dynamics->data, SPORE_TANGENT_USUAL);
+}
+
+static void linearise_whole(void *data, const double *v, const double *from) {
+  linearise_by(data, SPORE_TANGENT_WHOLE, v, from);
 }
 
 static bool reuse(void *data, const double *v) {
@@ -56,7 +70,12 @@ static SporeLinearResult solve(void *data, const double *r, double tolerance, do
   const SporeDynamics *dynamics = stage->dynamics;
   SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition,
                                  dynamics->cancel};
-  return spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+  SporeLinearResult result = spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+  if (result.status != SPORE_LINEAR_INDEFINITE || !dynamics->take_tangent || !stage->at) return result;
+  linearise_by(stage, SPORE_TANGENT_DEFINITE, stage->at, NULL);
+  SporeLinearResult again = spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+  again.iterations += result.iterations;
+  return again;
 }
 
 /* Slipping friction adds a term to the Jacobian that is not symmetric: friction changes with the pressing force, and
@@ -133,6 +152,7 @@ static SporeSystem stage_system(Stage *stage) {
                        .cancel = stage->dynamics->cancel,
                        .residual = residual,
                        .linearise = linearise,
+                       .linearise_whole = stage->dynamics->take_tangent ? linearise_whole : NULL,
                        .reuse = reuse,
                        .solve = solve,
                        .solve_whole = solve_whole,
@@ -143,6 +163,7 @@ static SporeSystem stage_system(Stage *stage) {
                        .norm = dual_norm,
                        .scale_x = gravity,
                        .scale_r = gravity,
+                       .least = stage->c * stage->dynamics->least_force,
                        .load = load,
                        .rounding = rounding};
 }

@@ -29,13 +29,6 @@ double spore_study_nominal_order(SporeIntegratorKind kind) {
   }
 }
 
-int spore_study_finest_level(const SporeAccuracyReport *report) {
-  int level = -1;
-  for (size_t i = 0; i < report->level_count; i++)
-    if (report->levels[i].level > level) level = report->levels[i].level;
-  return level;
-}
-
 static int compare_numbers(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

@@ -1,6 +1,4 @@
 /* One run of the accuracy study: a world made, put where the stretch begins, run and dropped. */
-#include <stdarg.h>
-#include <stdio.h>
 #include <time.h>
 
 #include "core/base/memory.h"
@@ -14,19 +12,6 @@ double spore_study_processor_s(void) {
 }
 
 double spore_study_elapsed_s(const SporeStudy *study) { return spore_study_processor_s() - study->started_s; }
-
-void spore_study_cut(SporeStudy *study, const char *format, ...) {
-  SporeAccuracyReport *report = study->report;
-  char text[512];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  char **cuts = spore_reallocate(report->cuts, report->cut_count, report->cut_count + 1, sizeof *cuts);
-  if (!cuts) return;
-  report->cuts = cuts;
-  if ((cuts[report->cut_count] = spore_copy_text(text))) report->cut_count++;
-}
 
 /* The study's own limit of time beside the user's wish to end. */
 static bool asked(void *data) {

@@ -13,7 +13,7 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
                              double norm, SporeNonlinearResult *result) {
   assert(options->tolerance > 0);
   assert(system->scale_r >= 0 && system->scale_x >= 0);
-  double load = fmax(norm, system->scale_r);
+  double load = fmax(norm, fmax(system->scale_r, system->least));
   if (options->load > 0) load = fmin(load, options->load);
   *test = (SporeConvergence){.tolerance = options->tolerance, .scale_r = load, .norm = norm, .least = norm};
   result->finite = isfinite(norm);
@@ -21,7 +21,7 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
   /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm; where something
    * buckles it may be more, and that is what so small a disturbance would do. Only the load that the system names
    * counts here: beside the residual itself any guess would do. */
-  result->converged = norm <= options->tolerance * fmin(system->scale_r, system->scale_x);
+  result->converged = norm <= options->tolerance * fmax(fmin(system->scale_r, system->scale_x), system->least);
   result->residual = norm == 0 ? 0 : result->finite ? norm / test->scale_r : INFINITY;
   return result->finite;
 }
@@ -81,7 +81,7 @@ void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, c
   if (!small && !stalled) return;
   /* What is still missing: the change made, times how much the residual shrank with it. */
   double change = length * sqrt(system->dot(system->data, d, d));
-  double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
+  double size = fmax(sqrt(system->dot(system->data, x, x)), fmax(system->scale_x, system->least));
   double missing = before > 0 ? change * fmin(norm / before, 1) : 0;
   result->converged = !small || missing <= test->tolerance * size;
 }

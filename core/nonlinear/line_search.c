@@ -8,7 +8,9 @@
 #include "core/math/vector.h"
 
 #define TRIALS 12
-#define FLAT 0.5 /* of the slope at the start: along d nothing more is to be had */
+#define FLAT 0.5     /* of the slope at the start: along d nothing more is to be had */
+#define SWITCHED 0.2 /* of the slope at the start: what it has fallen by in excess of the promise */
+#define BISECTIONS 8
 #define LONGER 4 /* at most, times the length before */
 
 typedef struct Line {
@@ -50,11 +52,31 @@ static double between(double low, double low_slope, double high, double high_slo
   return low + fmin(fmax(share, 0.1), 0.9) * (high - low);
 }
 
+/* Where a force has switched on the way to `length`, as friction does that turns round, the slope has fallen by more
+ * than the linearisation promised, in one place. Before that place and behind it the force is the same wherever one
+ * goes, so that the next step would go past it again; in it the force tells how far to go. */
+static double into_switch(Line *line, double start, double low, double length) {
+  double fallen = (1 - length) * start - line->slope, high = length, at = length;
+  if (!(fallen > SWITCHED * start)) return length;
+  for (int k = 0; k < BISECTIONS; k++) {
+    at = 0.5 * (low + high);
+    try_length(line, at);
+    double share = ((1 - at) * start - line->slope) / fallen;
+    if (share > 0.2 && share < 0.8) return at;
+    if (share > 0.5) high = at;
+    else low = at;
+  }
+  try_length(line, length);
+  return length;
+}
+
 static double by_slope(Line *line, double norm, double start) {
   double low = 0, low_slope = start, high = HUGE_VAL, high_slope = 0, length = 1;
   for (int k = 0, side = 0; k <= TRIALS && !spore_cancel_asked(line->system->cancel); k++) {
     try_length(line, length);
-    if (line->norm <= 0.5 * norm || fabs(line->slope) <= FLAT * start) return length;
+    if (line->norm <= 0.5 * norm) return length;
+    if (fabs(line->slope) <= FLAT * start)
+      return line->system->switches ? into_switch(line, start, low, length) : length;
     if (line->slope > 0) {
       if (!isfinite(high) && line->norm > line->near) return length;
       double gain = low_slope > line->slope ? line->slope / (low_slope - line->slope) : LONGER;

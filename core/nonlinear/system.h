@@ -22,6 +22,9 @@ typedef struct SporeSystem {
   /* from: where the step to x was taken by the linearisation there, or NULL; what that promised of x may serve better
    * than what x shows. */
   void (*linearise)(void *data, const double *x, const double *from);
+  /* The same by all of -dr/dx that is symmetric, where A usually leaves out what may make it indefinite; NULL: it does
+   * not. */
+  void (*linearise_whole)(void *data, const double *x, const double *from);
   /* True when an earlier linearisation may stand in for a new one, and is now the current one. */
   bool (*reuse)(void *data, const double *x);
   /* dx ~ A^-1 r to a relative residual. */
@@ -38,6 +41,8 @@ typedef struct SporeSystem {
   double (*norm)(void *data, const double *r);
   /* Size of x below which a change is not one, and of r below which it is: sums over what r is made of. */
   double scale_x, scale_r;
+  /* Size of r, and of x, that is none, whatever the guess is: beside a residual that is rounding alone any would do. */
+  double least;
   /* Norm of the load at x besides that of scale_r: where both are 0 there is nothing to solve but rounding. NULL: what
    * the residual is at the guess. */
   double (*load)(void *data, const double *x);
@@ -70,7 +75,9 @@ typedef struct SporeNonlinearResult {
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
  * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
  * count doubles. */
-#define SPORE_NEWTON_SCRATCH 8
+#define SPORE_DIFFERENCES 8 /* of iterations, that both methods keep */
+#define SPORE_DIFFERENCES_SCRATCH (2 + 2 * SPORE_DIFFERENCES)
+#define SPORE_NEWTON_SCRATCH (9 + SPORE_DIFFERENCES_SCRATCH)
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch);
 
@@ -79,8 +86,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
  * Applications 16, 2009), from the linearisation that `reuse` allows. It takes a new one where that costs less than the
  * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails or takes more iterations
  * than Newton may. Its own are cheap and count half: together they are at most one and a half times as many. */
-#define SPORE_BROYDEN_MEMORY 8
-#define SPORE_BROYDEN_SCRATCH (7 + 2 * SPORE_BROYDEN_MEMORY)
+#define SPORE_BROYDEN_SCRATCH SPORE_NEWTON_SCRATCH
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                    double *r, double *scratch);
 

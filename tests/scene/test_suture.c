@@ -49,6 +49,7 @@ static void edges_come_together(void) {
   g_assert_cmpuint(state.stitches, ==, 2);
   g_assert_cmpfloat(wound_width(world), <, 0.5 * before);
   g_assert_cmpuint(monitor->not_finite + monitor->too_fast + monitor->lost_holds, ==, 0);
+  g_assert_cmpuint(monitor->not_converged + monitor->recoveries, ==, 0);
   spore_simulation_free(simulation);
   spore_pool_free(pool);
   spore_document_free(document);

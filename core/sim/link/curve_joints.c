@@ -87,7 +87,7 @@ static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTer
   spore_vec3_store(world->links.mappings[2 * link->term_start + 1].points, point);
 }
 
-/* Reports a line that turns too sharply for a cubic between two knots: the point sticks there. */
+/* Reports a line that turns too sharply for a cubic between two knots: the point may stick there. */
 static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace *place, uint32_t index) {
   if (link->reported_sharp) return;
   double square = spore_vec3_dot(place->slope, place->slope),
@@ -103,20 +103,20 @@ static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace 
     spore_world_report(
         world,
         _("%s: %s turns by %.2g rad between two control points where it slides, more sharply than they can "
-          "follow: it sticks there; set its most_bend to 0.3, or more control_points"),
+          "follow: it may stick there; set its most_bend to 0.3, or more control_points"),
         link->name, body->name, turn);
   else if (spent)
     spore_world_report(
         world,
-        _("%s: %s turns by %.2g rad between two control points where it slides, and sticks there: all %zu are "
+        _("%s: %s turns by %.2g rad between two control points where it slides, and may stick there: all %zu are "
           "in use; raise its maximum_control_points"),
         link->name, body->name, turn, body->refinement.state.reserve);
   else
-    spore_world_report(
-        world,
-        _("%s: %s turns by %.2g rad between two control points where it slides, and sticks there: its most_bend asks "
-          "for no more of them; set that to 0.3"),
-        link->name, body->name, turn);
+    spore_world_report(world,
+                       _("%s: %s turns by %.2g rad between two control points where it slides, and may stick there: "
+                         "its most_bend asks "
+                         "for no more of them; set that to 0.3"),
+                       link->name, body->name, turn);
 }
 
 static void follow_curve(SporeWorld *world, SporeLink *link, SporeSpringTerm *term) {

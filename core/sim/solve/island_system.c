@@ -186,6 +186,8 @@ static void set_time(void *data, double elapsed_s) {
   }
 }
 
+static void take_tangent(void *data, SporeTangentForm form) { ((SporeIslandSystem *)data)->tangent = form; }
+
 static void set_mass(void *data, const double *q) {
   SporeIslandSystem *system = data;
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -385,6 +387,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .carry = carry,
                          .mass_multiply = mass_multiply,
                          .linearise = spore_island_system_linearise,
+                         .take_tangent = take_tangent,
                          .reuse = spore_island_system_reuse,
                          .multiply = spore_island_system_multiply,
                          .drags = spore_island_system_drags,
@@ -399,7 +402,8 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .distance = distance,
                          .buckles = spore_island_system_buckles(system),
                          .held = system->balance,
-                         .gravity_momentum = system->island->gravity_momentum};
+                         .gravity_momentum = system->island->gravity_momentum,
+                         .least_force = system->island->least_force};
 }
 
 static void invert_mass(SporeWorld *world, const SporeBody *body, size_t start, size_t count) {

@@ -23,6 +23,7 @@ typedef struct SporeIslandSystem {
   double drift_s;        /* the longest that bodies moved free of force at once */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
+  SporeTangentForm tangent;                   /* what A takes of the stiffness of bodies and links */
   bool together;                              /* the preconditioner is a factor of the whole matrix */
   size_t dragging;                            /* contacts with a drag, which the current A leaves out */
   bool driven;                                /* a device moves some end */

@@ -235,6 +235,7 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
   island->equations.count = 0;
   for (size_t i = 0; i < island->kept_count; i++) mass += world->bodies[bodies[i]].total_mass;
   island->gravity_momentum = sqrt(mass) * spore_vec3_length(world->state.gravity);
+  island->least_force = island->gravity_momentum > 0 ? 0 : sqrt(mass) * SPORE_LEAST_GRAVITY;
   island->in_place = place_bodies(world, island);
   if (spore_integrator(island->integrator)->remembers && island->kept_count > 0) gather_history(world, island);
   if (island->in_place) {

@@ -55,7 +55,7 @@ static void linearise_terms(SporeIslandSystem *system, const double *q, const do
     uint32_t body = spore_island_system_local_body(system, &term->a, &term->b);
     if (body != SPORE_NO_BODY && kept) continue;
     SporeMat3 k = spore_spring_term_jacobian(term, sites, q, v, c, c2);
-    if (term->curve) bend_curve_joint(system, term, q, c2, body);
+    if (term->curve) bend_curve_joint(system, term, q, system->tangent == SPORE_TANGENT_DEFINITE ? 0 : c2, body);
     if (body != SPORE_NO_BODY) spore_body_assemble_term(&system->world->bodies[body], &term->a, &term->b, &k);
     else spring_couplings(system)[system->spring_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }
@@ -163,21 +163,24 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
     double *block = body->preconditioner.matrix.values + 9 * (size_t)body->preconditioner.matrix.diagonal[i];
     for (int e = 0; e < 9; e++) block[e] += inertia * mass[9 * i + e];
   }
-  body->preconditioner.factor_ready = false;
+  if (system->tangent != SPORE_TANGENT_WHOLE) body->preconditioner.factor_ready = false;
   body->preconditioner.factor_kept &=
       body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2 && !system->balance;
   body->preconditioner.matrix_c = c;
   body->preconditioner.matrix_c2 = c2;
   body->preconditioner.matrix_step = system->world->state.step;
+  body->preconditioner.matrix_usual = system->tangent == SPORE_TANGENT_USUAL;
 }
 
 /* Whether the body takes its whole tangent. Compression may make the whole tangent indefinite. A factor detects that,
  * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
  * that lacks some terms. In balance it is for the caller to make the matrix definite. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
+  bool may = body->model->type->tangent && system->tangent != SPORE_TANGENT_DEFINITE;
+  if (may && system->tangent == SPORE_TANGENT_WHOLE) return true;
   if (!body->preconditioner.choice.factorised) return false;
   if (balances(system, body)) return true;
-  return body->model->type->tangent && system->island->contact_count + system->island->spring_count == 0;
+  return may && system->island->contact_count + system->island->spring_count == 0;
 }
 
 /* whole: assembles all bodies, by the whole tangent where a body takes it; else only the bodies whose factor failed. */
@@ -189,7 +192,8 @@ static bool assemble_bodies(const SporeIslandSystem *system, const double *q, co
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) continue;
     bool balance = balances(system, body);
-    if (!whole && (body->preconditioner.factor_ready || balance || !takes_whole(system, body))) continue;
+    bool again = takes_whole(system, body) && body->preconditioner.choice.factorised;
+    if (!whole && (body->preconditioner.factor_ready || balance || !again)) continue;
     assemble(system, body,
              &(SporeTangent){.q = q + site->q,
                              .shape = (system->shape ? system->shape : q) + site->q,
@@ -255,7 +259,8 @@ static bool may_reuse(const SporeIslandSystem *system, double c, double c2) {
     const SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) continue;
     bool same = body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2;
-    if (!same || system->world->state.step - body->preconditioner.matrix_step >= body->preconditioner.choice.keep)
+    if (!same || !body->preconditioner.matrix_usual ||
+        system->world->state.step - body->preconditioner.matrix_step >= body->preconditioner.choice.keep)
       return false;
   }
   return true;

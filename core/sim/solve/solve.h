@@ -57,6 +57,7 @@ typedef struct SporePreconditioner {
   SporeBlockMatrix
       matrix; /* M + c D + c2 K of the model alone, without couplings; empty where the model has no Jacobian */
   double matrix_c, matrix_c2; /* c and c2 of the assembled matrix; 0: not assembled */
+  bool matrix_usual;          /* it is no more and no less than a step usually takes */
   uint64_t matrix_step;       /* number of the step in which the matrix was assembled */
   SporeBlockCholesky factor;  /* without blocks: this body is never factorised */
   bool factor_ready;          /* the factor may be used: it belongs to the present matrix, or is kept */
@@ -123,6 +124,8 @@ typedef struct SporeVerdict {
   uint32_t body;   /* with the largest part of the residual; SPORE_NO_BODY: none */
 } SporeVerdict;
 
+#define SPORE_LEAST_GRAVITY 0.01 /* m/s^2: the load of weightless bodies is at least so much, or rounding would be */
+
 /* An island: where its bodies, contacts and springs lie, how it is integrated, and what came of that. */
 typedef struct SporeIsland {
   size_t body_start, body_count;             /* in island_bodies */
@@ -138,6 +141,7 @@ typedef struct SporeIsland {
   size_t substeps;         /* of the integrator */
   bool multirate;          /* its bodies have different integrators or substeps: see multirate.c */
   double gravity_momentum; /* (M g . g)^(1/2), a scale for residuals */
+  double least_force;      /* where there is no gravity, the same of SPORE_LEAST_GRAVITY; else 0 */
   SporeHistory history;    /* in the local vectors */
   uint32_t attempts;       /* made at this step */
   SporeKeptEquations equations;
