@@ -15,20 +15,6 @@
 #define NEARER 1.2 /* times, to be worth a word */
 #define WORSE 5    /* times the error of another method at the same step */
 
-double spore_study_nominal_order(SporeIntegratorKind kind) {
-  switch (kind) {
-  case SPORE_INTEGRATOR_RK4:
-    return 4;
-  case SPORE_INTEGRATOR_VERLET:
-  case SPORE_INTEGRATOR_IMPLICIT_MIDPOINT:
-  case SPORE_INTEGRATOR_BDF2:
-  case SPORE_INTEGRATOR_TR_BDF2:
-    return 2;
-  default:
-    return 1;
-  }
-}
-
 static int compare_numbers(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

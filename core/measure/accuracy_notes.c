@@ -1,9 +1,18 @@
-/* What the accuracy study notes in its report while it goes on, and looks up there. */
+/* What all parts of the accuracy study ask: its clock, what was cut, the finest level, the order of a method. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <time.h>
 
 #include "core/base/memory.h"
 #include "core/measure/accuracy_private.h"
+
+double spore_study_processor_s(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double spore_study_elapsed_s(const SporeStudy *study) { return spore_study_processor_s() - study->started_s; }
 
 void spore_study_cut(SporeStudy *study, const char *format, ...) {
   SporeAccuracyReport *report = study->report;
@@ -23,4 +32,18 @@ int spore_study_finest_level(const SporeAccuracyReport *report) {
   for (size_t i = 0; i < report->level_count; i++)
     if (report->levels[i].level > level) level = report->levels[i].level;
   return level;
+}
+
+double spore_study_nominal_order(SporeIntegratorKind kind) {
+  switch (kind) {
+  case SPORE_INTEGRATOR_RK4:
+    return 4;
+  case SPORE_INTEGRATOR_VERLET:
+  case SPORE_INTEGRATOR_IMPLICIT_MIDPOINT:
+  case SPORE_INTEGRATOR_BDF2:
+  case SPORE_INTEGRATOR_TR_BDF2:
+    return 2;
+  default:
+    return 1;
+  }
 }

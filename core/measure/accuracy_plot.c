@@ -76,8 +76,8 @@ static void fill(Lines *lines, const SporeAccuracyReport *report) {
 }
 
 static char *draw(const SporeAccuracyReport *report, const Lines *lines, const char *title, SporeError *error) {
-  const char *error_label =
-      report->statistics ? _("error of mean places (percent of a body's length)") : _("error (percent of a body's length)");
+  const char *error_label = report->statistics ? _("error of mean places (percent of a body's length)")
+                                               : _("error (percent of a body's length)");
   char note[1024];
   snprintf(
       note, sizeof note, "%s\n%s", report->sentence ? report->sentence : "",

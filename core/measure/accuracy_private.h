@@ -26,12 +26,17 @@ typedef struct SporeStudy {
   SporeError *error;
 } SporeStudy;
 
+/* accuracy_notes.c: what all parts of the study ask. */
 /* Seconds that the program has had on the processor. */
 double spore_study_processor_s(void);
 /* The same since the study began. */
 double spore_study_elapsed_s(const SporeStudy *study);
 /* Adds a translated sentence to what was cut. */
 void spore_study_cut(SporeStudy *study, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Order of a method where forces are smooth. */
+double spore_study_nominal_order(SporeIntegratorKind kind);
+/* The finest of the levels that were asked for, which the reference is of; -1: none were, so the scene's. */
+int spore_study_finest_level(const SporeAccuracyReport *report);
 
 /* How a run differs from a plain one. */
 typedef struct SporeStudyRun {
@@ -63,9 +68,5 @@ double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a,
 
 /* accuracy_judge.c: errors of all points, orders, the Pareto set and the sentence. False: no memory. */
 bool spore_study_judge(SporeStudy *study);
-/* The finest of the levels that were asked for, which the reference is of; -1: none were, so the scene's. */
-int spore_study_finest_level(const SporeAccuracyReport *report);
-/* Order of a method where forces are smooth. */
-double spore_study_nominal_order(SporeIntegratorKind kind);
 
 #endif

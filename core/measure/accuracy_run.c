@@ -1,17 +1,7 @@
 /* One run of the accuracy study: a world made, put where the stretch begins, run and dropped. */
-#include <time.h>
-
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/measure/accuracy_private.h"
-
-double spore_study_processor_s(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-double spore_study_elapsed_s(const SporeStudy *study) { return spore_study_processor_s() - study->started_s; }
 
 /* The study's own limit of time beside the user's wish to end. */
 static bool asked(void *data) {
