@@ -264,6 +264,8 @@ class Editor:
         ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], capture_output=True,
                              text=True).stdout.split()
         subprocess.run(["xdotool", "windowfocus", "--sync", ids[-1]], stderr=subprocess.DEVNULL)
+        active = self.atspi.StateType.ACTIVE
+        wait(lambda: any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog")), "a window to be active")
 
     def keys(self, *keys):
         subprocess.run(["xdotool", "key", "--clearmodifiers", *keys], check=True)
