@@ -6,6 +6,7 @@
 #include "app/cli/plan_tables.h"
 #include "app/cli/scene.h"
 #include "core/measure/pruning.h"
+#include "core/scene/needs.h"
 #include "core/scene/work_estimate.h"
 
 #define LEAST_SAVED_US 0.01 /* less is not worth a word */
@@ -186,23 +187,21 @@ static void report_left_out(SporeCli *cli, const SporePlanLeftOut *left_out, con
 static void report_step(SporeCli *cli, const SporeRun *run, gboolean measured) {
   const SporeWorld *world = run->simulation->world;
   const SporePlan *plan = spore_world_plan(world);
-  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step"), estimate_us = 0;
-  for (gsize i = 0; i < plan->stage_count; i++)
-    if (plan->stages[i].included) estimate_us += plan->stages[i].estimate_us;
+  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   double median_us = measured ? spore_profile_summary(spore_world_profile(world)).median_us : NAN;
   spore_cli_open(cli, "step");
   spore_cli_number(cli, "time_step_s", dt_s);
-  spore_cli_number(cli, "estimate_us", estimate_us);
+  spore_cli_number(cli, "estimate_us", plan->estimate_us);
   spore_cli_number(cli, "measured_us", median_us);
   spore_cli_close(cli);
-  g_autofree char *estimate = g_strdup_printf("%.2f us", estimate_us);
+  g_autofree char *estimate = g_strdup_printf("%.2f us", plan->estimate_us);
   g_autofree char *time = measured ? g_strdup_printf("%.2f us", median_us) : g_strdup("-");
   spore_cli_say(cli, "%-14s %-4s %7s %12s %12s  ", _("a step"), "", "", estimate, time);
   spore_cli_say(cli, _("of %g us that are simulated in it\n"), 1e6 * dt_s);
 }
 
 /* unpruned: NULL where nothing was measured. */
-static void report(SporeCli *cli, const SporeRun *run, const SporeWorld *unpruned) {
+static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, const SporeWorld *unpruned) {
   const SporeDocument *document = run->document;
   const SporeWorld *world = run->simulation->world;
   const SporePlan *plan = spore_world_plan(world);
@@ -214,7 +213,7 @@ static void report(SporeCli *cli, const SporeRun *run, const SporeWorld *unprune
   report_step(cli, run, unpruned != NULL);
   spore_cli_open_array(cli, "left_out");
   for (gsize i = 0; i < plan->left_out_count; i++) report_left_out(cli, &plan->left_out[i], world, unpruned);
-  spore_plan_report_files_left_out(cli, run);
+  spore_plan_report_files_left_out(cli, needs);
   spore_cli_close_array(cli);
   report_bodies(cli, document, world);
   report_branches(cli, world);
@@ -296,12 +295,13 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   g_autoptr(SporeSimulation) unpruned = NULL;
   if (measured && !spore_plan_measure_pruning(run, &pruning, &unpruned, &error)) return spore_cli_fail(error);
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
-  report(cli, run, unpruned ? unpruned->world : NULL);
+  g_autoptr(GArray) needs = spore_document_asset_needs(run->document);
+  report(cli, run, needs, unpruned ? unpruned->world : NULL);
   status = measured ? spore_plan_report_pruning(cli, &pruning) : SPORE_EXIT_DONE;
-  spore_plan_report_needs(cli, run);
+  spore_plan_report_needs(cli, run, needs);
   spore_plan_report_mapping(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measured);
-  if (!spore_plan_report_levels(cli, run, measured ? SPORE_PLAN_STEPS : 0, &error)) return spore_cli_fail(error);
+  if (!spore_plan_report_levels(cli, run, measured ? SPORE_PRUNING_STEPS : 0, &error)) return spore_cli_fail(error);
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   return spore_cli_finish(cli, status);
 }

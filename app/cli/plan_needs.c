@@ -44,8 +44,7 @@ static void report_asset(SporeCli *cli, const SporeAssetNeed *need) {
   spore_cli_close(cli);
 }
 
-static void report_assets(SporeCli *cli, SporeDocument *document) {
-  g_autoptr(GArray) needs = spore_document_asset_needs(document);
+static void report_assets(SporeCli *cli, const GArray *needs) {
   guint count[SPORE_ASSET_USE_COUNT] = {0};
   double bytes[SPORE_ASSET_USE_COUNT] = {0};
   spore_cli_open_array(cli, "assets");
@@ -81,8 +80,7 @@ static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, 
   spore_cli_say(cli, _("left out: %s (%s): saves %.3g kB\n"), what, reason, 1e-3 * bytes);
 }
 
-void spore_plan_report_files_left_out(SporeCli *cli, const SporeRun *run) {
-  g_autoptr(GArray) needs = spore_document_asset_needs(run->document);
+void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs) {
   report_files(cli, needs, SPORE_ASSET_SOURCE, _("sources: a run reads what was generated from them"));
   report_files(cli, needs, SPORE_ASSET_UNUSED, _("nothing names them"));
 }
@@ -98,9 +96,9 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
   return 0;
 }
 
-void spore_plan_report_needs(SporeCli *cli, const SporeRun *run) {
+void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs) {
   report_models(cli, run->simulation->world);
-  report_assets(cli, run->document);
+  report_assets(cli, needs);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);
   spore_cli_close_array(cli);
@@ -140,7 +138,7 @@ gboolean spore_plan_measure_pruning(SporeRun *run, SporePruning *pruning, SporeS
   *unpruned = spore_simulation_new_unpruned(run->document, run->pool, run->input.channel_count ? &run->input : NULL,
                                             spore_cli_cancel(), error);
   if (!*unpruned) return FALSE;
-  double ratios[SPORE_PLAN_STEPS];
-  spore_pruning_measure(run->simulation->world, (*unpruned)->world, SPORE_PLAN_STEPS, ratios, pruning);
+  double ratios[SPORE_PRUNING_STEPS];
+  spore_pruning_measure(run->simulation->world, (*unpruned)->world, SPORE_PRUNING_STEPS, ratios, pruning);
   return TRUE;
 }

@@ -5,8 +5,6 @@
 #include "app/cli/scene.h"
 #include "core/measure/pruning.h"
 
-#define SPORE_PLAN_STEPS 200 /* that a measured plan takes */
-
 /* How far what is drawn of a body, and its spheres, lies off where the body moves it. */
 void spore_plan_report_mapping(SporeCli *cli, const SporeRun *run);
 /* Where each pin on a line clamps that line. */
@@ -17,11 +15,11 @@ gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GErro
 /* Reports every line that has a reserve of control points. measured: with the time that the world has spent on them. */
 void spore_plan_report_lines(SporeCli *cli, const SporeWorld *world, gboolean measured);
 
-/* The models, files and libraries of the scene. */
-void spore_plan_report_needs(SporeCli *cli, const SporeRun *run);
+/* The models, files and libraries of the scene. needs: of SporeAssetNeed. */
+void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs);
 /* Rows of left_out: files that a run does not read. */
-void spore_plan_report_files_left_out(SporeCli *cli, const SporeRun *run);
-/* Measures the scene beside itself with nothing left out, in SPORE_PLAN_STEPS steps from time 0. *unpruned: of the
+void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs);
+/* Measures the scene beside itself with nothing left out, in SPORE_PRUNING_STEPS steps from time 0. *unpruned: of the
  * caller, who frees it. FALSE with a GError where it cannot be made. Where it was cancelled, nothing is measured. */
 gboolean spore_plan_measure_pruning(SporeRun *run, SporePruning *pruning, SporeSimulation **unpruned, GError **error);
 /* Reports what was measured. Gives the exit status: 1 where leaving out changed the result. */

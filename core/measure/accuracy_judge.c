@@ -1,11 +1,11 @@
 /* Judges the points of an accuracy study: errors, orders, which are worth their time, and one sentence. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/measure/accuracy_private.h"
+#include "core/measure/quantile.h"
 
 #define RESOLVED 10 /* times the reference's own error */
 #define SPREADS 2   /* of the means of perturbed runs */
@@ -14,17 +14,6 @@
 #define SAME_COST 1.1
 #define NEARER 1.2 /* times, to be worth a word */
 #define WORSE 5    /* times the error of another method at the same step */
-
-static int compare_numbers(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static double median(double *numbers, size_t count) {
-  if (count == 0) return NAN;
-  qsort(numbers, count, sizeof *numbers, compare_numbers);
-  return count % 2 ? numbers[count / 2] : 0.5 * (numbers[count / 2 - 1] + numbers[count / 2]);
-}
 
 /* Energy that moves about in the reference. */
 static double energy_at_work(const SporeTrial *reference) {
@@ -57,7 +46,7 @@ static void judge_point(SporeStudy *study, size_t i) {
   point->worst = apart.worst;
   point->energy_drift = energy_drift(trial, &study->reference);
   point->penetration = trial->penetration;
-  point->cost = median(study->costs + i * study->options->repeats, point->repeats);
+  point->cost = spore_quantile(study->costs + i * study->options->repeats, point->repeats, 0.5);
   point->us_per_step = 1e6 * point->cost * trial->dt_s;
   point->p99_us = trial->p99_us;
   point->real_time_factor = 1 / point->cost;

@@ -3,8 +3,9 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "core/measure/quantile.h"
 
 /* Positions lead q: those of the nodes, and of a frame's origin. */
 static double largest_distance(const SporeWorld *world, const SporeWorld *other) {
@@ -36,15 +37,6 @@ static void compare(const SporeWorld *world, const SporeWorld *unpruned, SporePr
   pruning->worst = fmax(pruning->worst, comparable(world, unpruned) ? largest_distance(world, unpruned) : INFINITY);
 }
 
-static double quantile(const double *sorted, size_t count, double share) {
-  return count ? sorted[(size_t)(share * (double)(count - 1) + 0.5)] : NAN;
-}
-
-static int compare_numbers(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* A step's time by the clock, us; below 0: it was cancelled. */
 static double timed_step(SporeWorld *world) {
   uint64_t start = spore_clock_ns();
@@ -69,10 +61,9 @@ bool spore_pruning_measure(SporeWorld *world, SporeWorld *unpruned, size_t steps
   }
   pruning->us = spore_profile_summary(spore_world_profile(world)).median_us;
   pruning->unpruned_us = spore_profile_summary(spore_world_profile(unpruned)).median_us;
-  qsort(ratios, steps, sizeof *ratios, compare_numbers);
-  pruning->ratio = quantile(ratios, steps, 0.5);
-  pruning->ratio_low = quantile(ratios, steps, 0.25);
-  pruning->ratio_high = quantile(ratios, steps, 0.75);
+  pruning->ratio = spore_quantile(ratios, steps, 0.5);
+  pruning->ratio_low = spore_quantile(ratios, steps, 0.25);
+  pruning->ratio_high = spore_quantile(ratios, steps, 0.75);
   return true;
 }
 

@@ -4,6 +4,8 @@
 
 #include "core/sim/world.h"
 
+#define SPORE_PRUNING_STEPS 200 /* that a measured plan takes */
+
 /* Figures of two worlds that took the same steps. */
 typedef struct SporePruning {
   size_t steps;                        /* that each world took */

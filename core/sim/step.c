@@ -259,8 +259,12 @@ static void fill_items(const SporeWorld *world, const SporeStageType *stage, Spo
 const SporePlan *spore_world_plan(const SporeWorld *world) {
   /* The item counts and estimates of stages change from step to step. They are updated only when the plan is read. */
   SporeSchedule *schedule = &((SporeWorld *)(uintptr_t)world)->schedule;
-  for (size_t i = 0; i < schedule->plan.stage_count; i++)
-    if (schedule->plan_stages[i].included) fill_items(world, &stages[i], &schedule->plan_stages[i]);
+  schedule->plan.estimate_us = 0;
+  for (size_t i = 0; i < schedule->plan.stage_count; i++) {
+    if (!schedule->plan_stages[i].included) continue;
+    fill_items(world, &stages[i], &schedule->plan_stages[i]);
+    schedule->plan.estimate_us += schedule->plan_stages[i].estimate_us;
+  }
   return &schedule->plan;
 }
 

@@ -308,6 +308,7 @@ typedef struct SporePlanLeftOut {
 /* Which stages the step of a world runs, what the world does without, and why. */
 typedef struct SporePlan {
   size_t stage_count, left_out_count;
+  double estimate_us;           /* of a step: the sum over the stages */
   const SporePlanStage *stages; /* in the order of the step */
   const SporePlanLeftOut *left_out;
 } SporePlan;

@@ -16,13 +16,13 @@ static bool asked(void *data) { return !spore_progress(data, 0.5, _("Planning th
 gboolean spore_plan_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporePlanWork *work = data;
   const SporeCancel cancel = {asked, (void *)(guintptr)progress};
-  g_autofree double *ratios = g_new(double, SPORE_PLAN_WORK_STEPS);
+  g_autofree double *ratios = g_new(double, SPORE_PRUNING_STEPS);
   work->simulation = spore_simulation_new(work->document, NULL, NULL, &cancel, error);
   if (!work->simulation) return FALSE;
   if (!work->measured) return TRUE;
   work->unpruned = spore_simulation_new_unpruned(work->document, NULL, NULL, &cancel, error);
   if (!work->unpruned) return FALSE;
-  return spore_pruning_measure(work->simulation->world, work->unpruned->world, SPORE_PLAN_WORK_STEPS, ratios,
+  return spore_pruning_measure(work->simulation->world, work->unpruned->world, SPORE_PRUNING_STEPS, ratios,
                                &work->pruning) ||
          spore_error_raise(error, SPORE_ERROR_CANCELLED, "", "%s", _("cancelled"));
 }

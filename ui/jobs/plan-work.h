@@ -6,8 +6,6 @@
 #include "core/measure/pruning.h"
 #include "core/scene/compile.h"
 
-#define SPORE_PLAN_WORK_STEPS 200 /* that a measured plan takes */
-
 typedef struct SporePlanWork {
   SporeDocument *document;                /* a copy of the scene, the worker's own */
   guint64 revision;                       /* of the scene then */

@@ -64,15 +64,11 @@ static char *summary_of(const SporePlanWork *work, double estimate_us, double dt
 
 static void show(SporePlanPanel *self, const SporePlanWork *work) {
   const SporePlan *plan = spore_world_plan(work->simulation->world);
-  double estimate_us = 0;
   gtk_list_store_clear(self->store);
-  for (gsize i = 0; i < plan->stage_count; i++) {
-    add_stage(self, &plan->stages[i], work->measured);
-    if (plan->stages[i].included) estimate_us += plan->stages[i].estimate_us;
-  }
+  for (gsize i = 0; i < plan->stage_count; i++) add_stage(self, &plan->stages[i], work->measured);
   for (gsize i = 0; i < plan->left_out_count; i++) add_left_out(self, &plan->left_out[i], work);
   double dt_s = spore_object_number(spore_document_section(work->document, "solver"), "time_step");
-  g_autofree char *summary = summary_of(work, estimate_us, dt_s);
+  g_autofree char *summary = summary_of(work, plan->estimate_us, dt_s);
   gtk_label_set_text(GTK_LABEL(self->summary), summary);
 }
 
