@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "app/cli/accuracy_report.h"
-#include "app/cli/accuracy_scene.h"
+#include "app/cli/scene.h"
 #include "app/cli/svg_picture.h"
+#include "core/author/accuracy_page.h"
+#include "core/author/accuracy_source.h"
 #include "core/base/number.h"
 #include "core/integrate/integrator.h"
 #include "core/io/scene_xml.h"
@@ -175,7 +177,6 @@ static gboolean may_write(const char *scene, const Request *request, GError **er
 
 static gboolean study(SporeCli *cli, const char *file, const Request *request, SporeAccuracyOptions *options,
                       GError **error) {
-  SporeAccuracyScene scene;
   SporeError fault = SPORE_ERROR_INIT;
   g_autoptr(SporeRun) run = spore_run_open(cli, file, &request->scene, 1, error);
   g_autoptr(GArray) levels = g_array_new(FALSE, FALSE, sizeof(int));
@@ -184,7 +185,10 @@ static gboolean study(SporeCli *cli, const char *file, const Request *request, S
     return FALSE;
   options->levels = (const int *)(gconstpointer)levels->data;
   options->level_count = levels->len;
-  SporeAccuracySource *source = spore_accuracy_source_new(run, request->body, &scene);
+  const SporeTrack *input = request->scene.input ? &run->input : NULL;
+  SporeAccuracySource *source =
+      spore_accuracy_source_new(run->document, run->simulation, run->pool, input, spore_cli_cancel(), request->body);
+  SporeAccuracyScene scene = spore_accuracy_source_scene(source);
   SporeAccuracyReport *report = spore_accuracy_study(&scene, options, &fault);
   spore_accuracy_source_free(source);
   if (!report) {

@@ -1,15 +1,16 @@
 /* Makes the worlds of an accuracy study: variations of a document, with the input from some time on. */
-#include "app/cli/accuracy_scene.h"
+#include "core/author/accuracy_source.h"
 
 #include <glib/gi18n.h>
 
-#include "core/scene/variation.h"
+#include "core/author/varied_worlds.h"
 
 struct SporeAccuracySource {
-  SporeRun *run;
+  SporeVariedWorlds worlds;
+  const SporeSimulation *simulation; /* of the document as it is */
+  const SporeTrack *input;
   const char *body;
-  GPtrArray *simulations; /* of the worlds that were made and not dropped */
-  SporeTrack shifted;     /* the input from start_s on; empty: from time 0 */
+  SporeTrack shifted; /* the input from start_s on; empty: from time 0 */
   double start_s;
 };
 
@@ -28,7 +29,7 @@ static gboolean shift_channel(SporeTrackChannel *to, const SporeTrackChannel *fr
 
 /* Makes the input begin at start_s. */
 static gboolean shift(SporeAccuracySource *source, double start_s, SporeError *error) {
-  const SporeTrack *track = source->run->simulation->track;
+  const SporeTrack *track = source->simulation->track;
   if (source->start_s == start_s || !track) return TRUE;
   spore_track_clear(&source->shifted);
   source->start_s = start_s;
@@ -54,67 +55,59 @@ static SporeWorld *make(void *data, const SporeAccuracyWorld *world, SporeError 
                                     .dt_s = world->dt_s,
                                     .tolerance = world->tolerance,
                                     .awake = world->awake};
-  g_autoptr(GError) reason = NULL;
   if (!shift(source, world->start_s, error)) return NULL;
-  SporeRun *run = source->run;
-  const SporeTrack *input = source->shifted.channel_count ? &source->shifted
-                            : run->input.channel_count    ? &run->input
-                                                          : NULL;
-  SporeSimulation *simulation =
-      spore_variation_make(run->document, &variation, run->pool, input, spore_cli_cancel(), &reason);
-  if (simulation) {
-    g_ptr_array_add(source->simulations, simulation);
-    return simulation->world;
-  }
-  spore_error_set(error, (SporeErrorCode)reason->code, NULL, "%s", reason->message);
-  return NULL;
+  const SporeTrack *input = source->shifted.channel_count ? &source->shifted : source->input;
+  return spore_varied_worlds_make(&source->worlds, &variation, input, error);
 }
 
 static void drop(void *data, SporeWorld *world) {
   SporeAccuracySource *source = data;
-  for (guint i = 0; i < source->simulations->len; i++)
-    if (((SporeSimulation *)g_ptr_array_index(source->simulations, i))->world == world) {
-      g_ptr_array_remove_index_fast(source->simulations, i);
-      return;
-    }
+  spore_varied_worlds_drop(&source->worlds, world);
 }
 
 /* The method of the bodies, or where they differ that of the solver. */
-static SporeIntegratorKind own_integrator(const SporeRun *run, const char *wanted) {
-  const SporeWorld *world = run->simulation->world;
+static SporeIntegratorKind own_integrator(const SporeAccuracySource *source) {
+  const SporeWorld *world = source->simulation->world;
   const char *name = NULL;
   gboolean mixed = FALSE;
   for (guint32 body = 0; body < spore_world_body_count(world); body++) {
     SporeMethod method;
     if (!spore_world_body_method(world, body, &method)) continue;
-    if (wanted && !g_str_equal(wanted, spore_world_body_name(world, body))) continue;
+    if (source->body && !g_str_equal(source->body, spore_world_body_name(world, body))) continue;
     mixed |= name && !g_str_equal(name, method.integrator.name);
     name = method.integrator.name;
   }
   if (mixed || !name)
-    return (SporeIntegratorKind)spore_object_number(spore_document_section(run->document, "solver"), "integrator");
+    return (SporeIntegratorKind)spore_object_number(spore_document_section(source->worlds.document, "solver"),
+                                                    "integrator");
   int kind = 0;
   while (!g_str_equal(spore_integrator_names[kind], name)) kind++;
   return (SporeIntegratorKind)kind;
 }
 
-SporeAccuracySource *spore_accuracy_source_new(SporeRun *run, const char *body, SporeAccuracyScene *scene) {
+SporeAccuracySource *spore_accuracy_source_new(SporeDocument *document, const SporeSimulation *simulation,
+                                               SporePool *pool, const SporeTrack *input, const SporeCancel *cancel,
+                                               const char *body) {
   SporeAccuracySource *source = g_new0(SporeAccuracySource, 1);
-  source->run = run;
+  spore_varied_worlds_init(&source->worlds, document, pool, cancel);
+  source->simulation = simulation;
+  source->input = input;
   source->body = body;
-  source->simulations = g_ptr_array_new_with_free_func((GDestroyNotify)spore_simulation_free);
-  *scene = (SporeAccuracyScene){
-      .data = source,
-      .make = make,
-      .drop = drop,
-      .starts_late = spore_object_child_count(spore_document_section(run->document, "effects")) == 0,
-      .own = {own_integrator(run, body), -1, -1},
-      .dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step")};
   return source;
 }
 
 void spore_accuracy_source_free(SporeAccuracySource *source) {
-  g_ptr_array_unref(source->simulations);
+  spore_varied_worlds_clear(&source->worlds);
   spore_track_clear(&source->shifted);
   g_free(source);
+}
+
+SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source) {
+  SporeDocument *document = source->worlds.document;
+  return (SporeAccuracyScene){.data = source,
+                              .make = make,
+                              .drop = drop,
+                              .starts_late = spore_object_child_count(spore_document_section(document, "effects")) == 0,
+                              .own = {own_integrator(source), -1, -1},
+                              .dt_s = spore_object_number(spore_document_section(document, "solver"), "time_step")};
 }
