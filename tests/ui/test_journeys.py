@@ -1360,7 +1360,8 @@ def plots_of_a_run():
         rows = list(csv.reader(table.read_text().splitlines()))
         y = rows[0].index("watch.ball@0.0015,0.06,0.001.y [m]")
         assert float(rows[1][0]) == 0 and abs(float(rows[1][y]) - 0.06) < 1e-12
-        assert len(rows) > 20 and float(rows[-1][0]) > 0.4 and float(rows[-1][y]) < 0.03
+        assert len(rows) > 10 and float(rows[-1][0]) > 0.4
+        assert min(float(row[y]) for row in rows[1:]) < 0.03, "it fell, and may be on its way up again"
         drawn = xml.etree.ElementTree.parse(picture)
         assert any("Contacts: force [N]" in (text.text or "") for text in drawn.iter("{http://www.w3.org/2000/svg}text"))
         for wrong, says in (("ball@1,1,1", "the nearest point of the body is ball@"), ("gone@0,0,0", "floor, ball"), ("ball", "BODY@X,Y,Z")):
