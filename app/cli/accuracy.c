@@ -13,9 +13,10 @@
 #include "core/io/scene_xml.h"
 
 #define STEPS_MOST 20
+#define LONGEST_S 1e4
 
 typedef struct Request {
-  char *body, *methods, *nonlinear, *linear, *dt, *levels, *time;
+  char *body, *methods, *nonlinear, *linear, *dt, *levels, *time, *seconds;
   char *svg, *png, *csv, *html;
   gboolean full;
   SporeSceneOptions scene;
@@ -23,8 +24,8 @@ typedef struct Request {
 
 static void clear_request(Request *request) {
   char **const texts[] = {&request->body, &request->methods, &request->nonlinear, &request->linear,
-                          &request->dt,   &request->levels,  &request->time,      &request->svg,
-                          &request->png,  &request->csv,     &request->html};
+                          &request->dt,   &request->levels,  &request->time,      &request->seconds,
+                          &request->svg,  &request->png,     &request->csv,       &request->html};
   for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_clear_pointer(texts[i], g_free);
   spore_scene_options_clear(&request->scene);
 }
@@ -103,11 +104,21 @@ static gboolean read_steps(const char *text, SporeAccuracyOptions *options, GErr
   return TRUE;
 }
 
-static gboolean read_time(const Request *request, SporeAccuracyOptions *options, GError **error) {
-  if (!request->time) return TRUE;
-  if (!spore_cli_seconds("--time", request->time, &options->time_s, error)) return FALSE;
-  if (options->time_s >= 1e-3 && options->time_s <= 1e4) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_INPUT, "--time", _("%s s; expected 0.001 s to 10000 s"), request->time);
+/* A time of an option within its range; text NULL: *seconds stays. */
+static gboolean read_seconds(const char *option, const char *text, double least_s, double *seconds, GError **error) {
+  if (!text) return TRUE;
+  if (!spore_cli_seconds(option, text, seconds, error)) return FALSE;
+  return (*seconds >= least_s && *seconds <= LONGEST_S) ||
+         spore_error_raise(error, SPORE_ERROR_INPUT, option, _("%s s; expected %g s to %g s"), text, least_s,
+                           LONGEST_S);
+}
+
+static gboolean read_times(const Request *request, SporeAccuracyOptions *options, GError **error) {
+  if (request->full && request->seconds)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--seconds",
+                             _("--full takes all the time that it needs; expected one of the two; leave one out"));
+  return read_seconds("--time", request->time, 1e-3, &options->time_s, error) &&
+         read_seconds("--seconds", request->seconds, 1, &options->most_s, error);
 }
 
 static gboolean check_body(SporeRun *run, const char *name, GError **error) {
@@ -206,7 +217,7 @@ static int carry_out(SporeCli *cli, const char *file, const Request *request) {
   g_autoptr(GArray) methods = g_array_new(FALSE, FALSE, sizeof(SporeAccuracyMethod));
   SporeAccuracyOptions options = {
       .body = request->body, .full = request->full, .cancel = spore_cli_cancel(), .progress = spore_cli_progress(cli)};
-  if (!read_methods(request, methods, &error) || !read_time(request, &options, &error)) return spore_cli_fail(error);
+  if (!read_methods(request, methods, &error) || !read_times(request, &options, &error)) return spore_cli_fail(error);
   if (request->dt && !read_steps(request->dt, &options, &error)) return spore_cli_fail(error);
   options.methods = (const SporeAccuracyMethod *)(gconstpointer)methods->data;
   options.method_count = methods->len;
@@ -237,8 +248,9 @@ int spore_command_accuracy(SporeCli *cli, int argc, char **argv) {
        "A,B"},
       {"levels", 0, 0, G_OPTION_ARG_STRING, &r.levels, N_("Levels of detail: coarse,medium,fine"), "A,B"},
       {"time", 't', 0, G_OPTION_ARG_STRING, &r.time, N_("Simulated time of a run (default 1)"), "S"},
-      {"full", 0, 0, G_OPTION_ARG_NONE, &r.full,
-       N_("Cut nothing to fit the time, which is 36 s on the processor otherwise"), NULL},
+      {"full", 0, 0, G_OPTION_ARG_NONE, &r.full, N_("Cut nothing to fit the time"), NULL},
+      {"seconds", 0, 0, G_OPTION_ARG_STRING, &r.seconds,
+       N_("Time on the processor that it all may take (default 36); what does not fit is cut, and said"), "S"},
       {"svg", 0, 0, G_OPTION_ARG_FILENAME, &r.svg, N_("Write a plot"), "F.svg"},
       {"png", 0, 0, G_OPTION_ARG_FILENAME, &r.png, N_("Write the plot as a picture"), "F.png"},
       {"csv", 0, 0, G_OPTION_ARG_FILENAME, &r.csv, N_("Write all points as a table"), "F.csv"},

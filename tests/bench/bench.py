@@ -4,10 +4,12 @@ asserts a time: what is behind its promise is marked, and the exit status stays 
 import argparse
 import json
 import pathlib
+import signal
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
+import accuracy
 import authoring
 import collide
 import commands
@@ -19,13 +21,15 @@ import sofa
 import kernels
 import peers
 import precision
+import running
+import scaling
 import solids
 import solvers
 import surface
 import table
 import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **precision.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **authoring.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **precision.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **authoring.BENCHES, **editor.BENCHES, **accuracy.BENCHES, **scaling.BENCHES}
 
 
 def main():
@@ -34,8 +38,13 @@ def main():
     parser.add_argument("--build", required=True, type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--json")
     parser.add_argument("--organs", metavar="FOLDER", help="meshes in millimetres for the bench `authoring`; without it, shapes of its own")
+    parser.add_argument("--scenes", type=lambda names: names.split(","), metavar="A,B", help="of the bench `accuracy`: these alone")
+    parser.add_argument("--families", type=lambda names: names.split(","), metavar="A,B", help="of the bench `scaling`: these alone")
+    parser.add_argument("--seconds", type=float, metavar="S", help="of the benches `accuracy` and `scaling`: on the processor, for a scene or a size")
     options = parser.parse_args()
     authoring.organs = options.organs
+    accuracy.scenes, accuracy.seconds = options.scenes, options.seconds
+    scaling.families, scaling.seconds = options.families, options.seconds or scaling.seconds
     rows = []
     table.show_head()
     with tempfile.TemporaryDirectory(prefix="spore-bench-") as folder:
@@ -44,7 +53,17 @@ def main():
                 table.show(r)
                 rows.append(r)
     if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
+        running.write_whole(options.json, json.dumps(rows, indent=1) + "\n")
 
 
-main()
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        main()
+    except KeyboardInterrupt:
+        running.say("bench: interrupted")
+        sys.exit(130)

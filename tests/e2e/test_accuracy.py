@@ -125,6 +125,15 @@ def solvers_are_an_axis():
 
 
 @check
+def less_time_cuts_more():
+    """What cannot be had in a second is cut, and said: it would take minutes. A full study cuts nothing."""
+    short = json.loads(spore(SCENES / "plate2-tissue.spore", "--seconds", "1", "--json").stdout)
+    assert short["stretch"]["time_s"] < 1 and any("instead of 1" in cut for cut in short["cut"]), short["cut"]
+    full = json.loads(spore(swing(), *FEW, "--json").stdout)
+    assert full["stretch"]["time_s"] >= 0.2 and not any("instead of" in cut for cut in full["cut"]), full["cut"]
+
+
+@check
 def people_get_a_table():
     text = spore(swing(), *FEW).stdout
     for said in ("reference: ", "comes to the same within", "order of implicit_euler: ", "Pareto", "tr_bdf2 at 2 ms: "):
@@ -152,6 +161,9 @@ def bad_wishes_are_refused():
     for wrong in ("0.1", "0.01:0.001:5", "0:0.01:5", "0.001:0.01:2", "0.001:1:5", "0.001:0.01:2.5", "a:b:c"):
         refuses(scene, "--dt", wrong, says=["--dt", wrong, "LO:HI:N"])
     refuses(scene, "--time", "0", says=["--time"])
+    for wrong in ("0", "0.5", "1e5", "soon"):
+        refuses(scene, "--seconds", wrong, says=["--seconds"])
+    refuses(scene, "--seconds", "5", "--full", says=["--seconds", "--full"])
     refuses(scene, "--body", "liver", says=["--body", "liver", "ball"])
     refuses(scene, "--body", "wall", says=["--body", "wall", "passive"])
     refuses(scene, "--levels", "coarse", says=["--levels", "levels"])
