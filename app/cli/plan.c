@@ -263,7 +263,8 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "moves_m: how far within the radius places of it can still move (null: none stands still)")},
       {"levels",
        N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
-          "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "
+          "levels takes), automatic (none, error, distance, time), levels: level, active, dof, spheres, and with "
+          "--measure measured_us, the median of a "
           "step of the scene with the body at it from the start")},
       {"lines",
        N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "

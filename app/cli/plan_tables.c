@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/scene/variation.h"
 #include "core/scene/mapping_quality.h"
 #include "core/scene/pinned_line.h"
 #include "core/scene/pinned_sheet.h"
@@ -134,10 +135,11 @@ void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {
 /* Median time of a step with the body at the level from time 0 on, us. */
 static gboolean measure(SporeRun *run, guint32 body, SporeLodGrade level, int steps, double *median_us,
                         GError **error) {
-  SporeSimulation *copy = spore_simulation_new(run->document, run->pool, run->input.channel_count ? &run->input : NULL,
-                                               spore_cli_cancel(), error);
+  const SporeVariation at_level = {.body = spore_world_body_name(run->simulation->world, body),
+                                   .level = spore_lod_names[level]};
+  SporeSimulation *copy = spore_variation_make(
+      run->document, &at_level, run->pool, run->input.channel_count ? &run->input : NULL, spore_cli_cancel(), error);
   if (!copy) return FALSE;
-  spore_world_set_lod(copy->world, body, level);
   for (int i = 0; i < steps && !spore_cli_interrupted(); i++) spore_world_step(copy->world);
   *median_us = spore_profile_summary(spore_world_profile(copy->world)).median_us;
   spore_simulation_free(copy);
@@ -161,6 +163,23 @@ static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, S
                 spore_world_body_sphere_count(world, body), time);
 }
 
+/* How the body changes its level by itself. */
+static void report_rule(SporeCli *cli, const SporeWorld *world, guint32 body) {
+  const char *name = spore_world_body_name(world, body);
+  SporeLodRule rule = spore_world_lod_rule(world, body);
+  spore_cli_text(cli, "automatic", spore_lod_cause_names[rule.by]);
+  if (rule.by == SPORE_LOD_BY_ERROR)
+    spore_cli_say(cli, _("%s changes its level by itself, so that its estimated error stays within its tolerance\n"),
+                  name);
+  if (rule.by == SPORE_LOD_BY_DISTANCE)
+    spore_cli_say(cli, _("%s changes its level by itself: it is fine within %g m of a tool, and %g m of a camera\n"),
+                  name, rule.tool_distance, rule.view_distance);
+  if (rule.by == SPORE_LOD_BY_TIME)
+    spore_cli_say(cli,
+                  _("%s changes its level by itself, by the time that steps take: two runs of this scene may differ\n"),
+                  name);
+}
+
 static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int steps, GError **error) {
   const SporeWorld *world = run->simulation->world;
   SporeLodState state;
@@ -177,6 +196,7 @@ static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int step
     if (done) report_level(cli, world, body, (SporeLodGrade)k, (int)state.level == k, median_us);
   }
   spore_cli_close_array(cli);
+  report_rule(cli, world, body);
   spore_cli_close(cli);
   return done;
 }

@@ -197,6 +197,10 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
        N_("where bodies have levels: each one's name, level (at the end), changes and refused (how many), error_m "
           "(how far they moved a point of it at most), energy_J (its own, that one added at most), "
           "momentum_Ns (that one missed at most)")},
+      {"level_changes",
+       N_("where bodies have levels, the last 256 changes: body, from, to, time_s, by (error, distance, time; none: it "
+          "was asked for), figure (by error the estimated error of the coarser level, m; by distance that of the "
+          "nearest tool or camera, m; by time what a step took, us), reason")},
       {"lines",
        N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "
           "start), points (at the end), peak (at most) and reserve (that there may be), inserted and removed")},
@@ -214,6 +218,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"realtime",
        N_("with --realtime: factor (simulated by real time), deadline_misses (steps that ended late), worst_late_us, "
           "jitter_us of their beginnings (median, p99, max), given_up_s (time that was not caught up with)")},
+      {"repeatable", N_("false where levels follow the clock, so that another run may end in another state")},
       {"state_hash",
        N_("of all positions and velocities: the same for the same scene and input, whatever the threads")},
       {NULL, NULL}};

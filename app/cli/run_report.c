@@ -187,6 +187,46 @@ static void report_level(SporeCli *cli, const char *body, const SporeLodState *s
                 (unsigned long long)state->refused);
 }
 
+/* Why a level changed; g_free. */
+static char *describe_cause(const SporeLodChange *change) {
+  switch (change->by) {
+  case SPORE_LOD_BY_ERROR:
+    return g_strdup_printf(_("level %s is estimated to be %.2g m wrong"),
+                           spore_lod_names[MIN(change->from, change->to)], change->figure);
+  case SPORE_LOD_BY_DISTANCE:
+    return g_strdup_printf(_("the nearest tool or camera is %.3g m away"), change->figure);
+  case SPORE_LOD_BY_TIME:
+    return g_strdup_printf(_("a step took %.4g us"), change->figure);
+  default:
+    return g_strdup(_("it was asked for"));
+  }
+}
+
+/* The log of changes of level, where there are levels. */
+static void report_level_changes(SporeCli *cli, const SporeWorld *world) {
+  guint64 count = spore_world_lod_change_count(world), first = count > SPORE_LOD_LOG ? count - SPORE_LOD_LOG : 0;
+  if (first > 0)
+    spore_cli_say(cli, _("of %llu changes of level the last %d:\n"), (unsigned long long)count, SPORE_LOD_LOG);
+  spore_cli_open_array(cli, "level_changes");
+  for (guint64 i = first; i < count; i++) {
+    SporeLodChange change = spore_world_lod_change(world, i);
+    const char *body = spore_world_body_name(world, change.body);
+    g_autofree char *reason = describe_cause(&change);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "body", body);
+    spore_cli_text(cli, "from", spore_lod_names[change.from]);
+    spore_cli_text(cli, "to", spore_lod_names[change.to]);
+    spore_cli_number(cli, "time_s", change.time_s);
+    spore_cli_text(cli, "by", spore_lod_cause_names[change.by]);
+    spore_cli_number(cli, "figure", change.figure);
+    spore_cli_text(cli, "reason", reason);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("%g s: %s: level %s to %s: %s\n"), change.time_s, body, spore_lod_names[change.from],
+                  spore_lod_names[change.to], reason);
+  }
+  spore_cli_close_array(cli);
+}
+
 /* Only where bodies have levels. */
 static void report_levels(SporeCli *cli, const SporeWorld *world) {
   SporeLodState state;
@@ -197,7 +237,9 @@ static void report_levels(SporeCli *cli, const SporeWorld *world) {
     any = TRUE;
     report_level(cli, spore_world_body_name(world, body), &state);
   }
-  if (any) spore_cli_close_array(cli);
+  if (!any) return;
+  spore_cli_close_array(cli);
+  report_level_changes(cli, world);
 }
 
 /* Only where control points come and go. */
@@ -303,6 +345,10 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_lines(cli, world);
   gboolean held = report_monitor(cli, world);
   held &= report_pace(cli, world, pace);
+  json_builder_set_member_name(cli->report, "repeatable");
+  json_builder_add_boolean_value(cli->report, spore_world_is_repeatable(world));
+  if (!spore_world_is_repeatable(world))
+    spore_cli_say(cli, _("levels followed the clock: another run of this scene may end in another state\n"));
   spore_cli_text(cli, "state_hash", hash);
   spore_cli_say(cli, _("state hash %s\n"), hash);
   return held ? SPORE_EXIT_DONE : SPORE_EXIT_NOT_HELD;

@@ -298,6 +298,7 @@ void spore_check_motion(SporeCheck *check) {
   if (simulation) check_work(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);
   if (simulation) spore_check_pins(check, simulation);
+  if (simulation) spore_check_levels(check, simulation);
   find_drops(&start);
   if (simulation) check_impacts(&start, simulation);
   spore_simulation_free(simulation);

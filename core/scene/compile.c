@@ -56,6 +56,8 @@ static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
                                        .link_count = compiler->links->len,
                                        .tool_count = compiler->tools->len,
                                        .emitter_count = compiler->emitters->len,
+                                       .eye_count = compiler->eyes->len,
+                                       .eyes = (const SporeEyeDescription *)(void *)compiler->eyes->data,
                                        .emitters = (const SporeEmitterDescription *)(void *)compiler->emitters->data,
                                        .bodies = (const SporeBodyDescription *)(void *)compiler->bodies->data,
                                        .links = (const SporeLinkDescription *)(void *)compiler->links->data,
@@ -97,6 +99,7 @@ static SporeSimulation *compile(SporeDocument *document, SporePool *pool, const 
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
   compiler.tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
   compiler.emitters = g_array_new(FALSE, TRUE, sizeof(SporeEmitterDescription));
+  compiler.eyes = g_array_new(FALSE, TRUE, sizeof(SporeEyeDescription));
   compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
   compiler.fields = g_ptr_array_new_with_free_func(g_free);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
@@ -105,6 +108,7 @@ static SporeSimulation *compile(SporeDocument *document, SporePool *pool, const 
   g_array_unref(compiler.links);
   g_array_unref(compiler.tools);
   g_array_unref(compiler.emitters);
+  g_array_unref(compiler.eyes);
   g_ptr_array_unref(compiler.spheres);
   g_ptr_array_unref(compiler.fields);
   return simulation;

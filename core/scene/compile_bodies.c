@@ -207,6 +207,10 @@ static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, Spo
   spore_object_fields(fidelity, &fields);
   levels->first = (SporeLodGrade)fields.level;
   levels->tolerance = fields.level_tolerance;
+  levels->rule = (SporeLodRule){.by = (SporeLodCause)fields.automatic,
+                                .tool_distance = fields.tool_distance,
+                                .view_distance = fields.view_distance,
+                                .wait_s = fields.level_wait};
   for (int k = 0; k < SPORE_LOD_FINE; k++) {
     SporeObject *level = spore_object_child_of(fidelity, spore_lod_names[k]);
     if (level && !model)

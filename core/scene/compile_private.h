@@ -13,6 +13,7 @@ typedef struct SporeCompiler {
   GArray *links;      /* of SporeLinkDescription */
   GArray *tools;      /* of SporeToolDescription */
   GArray *emitters;   /* of SporeEmitterDescription */
+  GArray *eyes;       /* of SporeEyeDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GPtrArray *fields;  /* parameters of tools; the tools' descriptions borrow them */
   const SporeCancel *cancel;

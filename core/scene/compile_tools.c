@@ -16,9 +16,21 @@ static gboolean find_bodies(SporeCompiler *compiler, const SporeObject *object, 
   return TRUE;
 }
 
+/* Whoever looks through a camera sees what is near it: bodies may be fine there. */
+static gboolean add_eye(SporeCompiler *compiler, const SporeObject *camera) {
+  SporeCameraFields fields;
+  spore_object_fields(camera, &fields);
+  SporeEyeDescription eye = {.point = spore_vec3_load(fields.position)};
+  if (!spore_compiler_body_index(compiler, camera, "body", &eye.body)) return FALSE;
+  g_array_append_val(compiler->eyes, eye);
+  return TRUE;
+}
+
 gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object) {
-  SporeToolDescription tool = {.type = spore_tool_type_find(spore_object_type(object)->element)};
-  if (!tool.type) return TRUE; /* a probe only moves its body, and a camera concerns viewers alone */
+  const char *element = spore_object_type(object)->element;
+  SporeToolDescription tool = {.type = spore_tool_type_find(element)};
+  if (strcmp(element, "camera") == 0) return add_eye(compiler, object);
+  if (!tool.type) return TRUE; /* a probe only moves its body */
   gpointer fields = g_malloc0(tool.type->parameters.size);
   g_ptr_array_add(compiler->fields, fields);
   spore_object_fields(object, fields);

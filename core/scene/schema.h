@@ -32,7 +32,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *                regions > region(name centre radius stiffness_scale density_scale material)
  *                collision(spheres + spore_contact_parameters)
  *                visual(mesh colour wetness)
- *                fidelity(mode level level_tolerance) > coarse(geometry settings) medium(geometry settings)
+ *                fidelity(mode level automatic ...) > coarse(geometry settings) medium(geometry settings)
  *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
  *     effects
  *     tools  > probe(name body device) | camera(name position target field_of_view)

@@ -53,9 +53,12 @@ typedef struct SporeVisualFields {
 } SporeVisualFields;
 
 typedef struct SporeFidelityFields {
-  int mode;               /* SporeFidelity */
-  int level;              /* SporeLodGrade */
-  double level_tolerance; /* m */
+  int mode;                            /* SporeFidelity */
+  int level;                           /* SporeLodGrade */
+  double level_tolerance;              /* m */
+  int automatic;                       /* SporeLodCause */
+  double tool_distance, view_distance; /* m */
+  double level_wait;                   /* s */
 } SporeFidelityFields;
 
 typedef struct SporeLodFields {

@@ -53,9 +53,14 @@ static gboolean vary_model(SporeDocument *copy, SporeObject *model, const SporeV
          scale(copy, model, masses, variation->mass, error);
 }
 
+/* What is measured at a level stays at that level, and measures do not follow the clock. */
 static gboolean set_level(SporeDocument *copy, SporeObject *body, const char *level, GError **error) {
   SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  if (!level || !fidelity) return TRUE;
+  if (!fidelity) return TRUE;
+  gboolean by_time = (int)spore_object_number(fidelity, "automatic") == SPORE_LOD_BY_TIME;
+  if ((level || by_time) && !set_text(copy, fidelity, "automatic", spore_lod_cause_names[SPORE_LOD_BY_HAND], error))
+    return FALSE;
+  if (!level) return TRUE;
   gboolean has = strcmp(level, spore_lod_names[SPORE_LOD_FINE]) == 0 || spore_object_child_of(fidelity, level);
   return !has || set_text(copy, fidelity, "level", level, error);
 }

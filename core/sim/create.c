@@ -289,7 +289,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
       spore_world_create_particles(world, description, error) &&
       (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
-      spore_world_create_lod(world, description, error) && allocate_vectors(world, error) && check_steps(world, error);
+      spore_world_create_lod(world, description, error) && spore_lod_create_automation(world, description, error) &&
+      allocate_vectors(world, error) && check_steps(world, error);
   if (spore_cancel_asked(world->cancel)) {
     spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
     return give_up(world);

@@ -104,6 +104,9 @@ static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)
 static const SporeStageType stages[] = {
     {"commands", always, spore_world_apply_commands, NULL, /**/
      N_("parameters and pulls may change while it runs"), NULL, 0.02, 0},
+    {"levels", spore_lod_is_automatic, spore_world_adapt_levels, spore_lod_automatic_count, /**/
+     N_("bodies change their level of detail by themselves"), N_("no body changes its level of detail by itself"), 0.02,
+     0.5},
     {"device_input", has_active, spore_world_read_devices, active_bodies, /**/
      N_("active bodies follow their devices"), N_("no body is driven by a device or a track"), 0.2, 0.7},
     {"tools", has_tools, spore_world_use_tools, tools, /**/

@@ -6,7 +6,7 @@
 
 #include "core/sim/world.h"
 
-#define SPORE_STAGE_COUNT 25
+#define SPORE_STAGE_COUNT 26
 #define SPORE_LEFT_OUT_MAXIMUM 9
 #define SPORE_COMMAND_CAPACITY 1024
 

@@ -36,6 +36,7 @@ void spore_world_free(SporeWorld *world) {
   spore_state_clear(&world->state);
   spore_commands_clear(&world->commands);
   for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
+  spore_free(world->levels.eyes);
   spore_free(world->bodies);
   spore_free(world);
 }

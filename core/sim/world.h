@@ -18,6 +18,7 @@
 #include "core/integrate/solver.h"
 #include "core/body/model.h"
 #include "core/sim/link/link_type.h"
+#include "core/sim/lod/lod_type.h"
 #include "core/sim/tool/tool_type.h"
 
 /* A world; its structure is private. */
@@ -49,22 +50,6 @@ typedef struct SporeContactFields {
 } SporeContactFields;
 /* The parameters of SporeContactFields. */
 extern const SporeParameterTable spore_contact_parameters;
-
-/* Levels of detail of a body. */
-typedef enum SporeLodGrade { SPORE_LOD_COARSE, SPORE_LOD_MEDIUM, SPORE_LOD_FINE } SporeLodGrade;
-#define SPORE_LOD_COUNT 3                   /* number of levels of detail */
-extern const char *const spore_lod_names[]; /* as in the file, NULL at the end */
-
-/* The same body made less finely. A running world can change the body to such a level. */
-typedef struct SporeLodDescription {
-  SporeModel
-      *model[SPORE_LOD_FINE]; /* of the same type as the body's model, and owned as that is; NULL: no such level */
-  SporeLodGrade first;        /* the level at time 0 */
-  double tolerance;           /* m: a change that moves a point of the body further than this is refused */
-  size_t surface_count;
-  const double *surface; /* surface_count x 3, body's frame at rest, borrowed: points that the error of a change is
-                            measured on, besides spheres and nodes */
-} SporeLodDescription;
 
 /* A body of a world that is to be made. */
 typedef struct SporeBodyDescription {
@@ -104,9 +89,10 @@ typedef struct SporeEmitterDescription {
 
 /* All that a world is made from. The arrays are borrowed during spore_world_create. */
 typedef struct SporeWorldDescription {
-  size_t body_count, link_count, tool_count, emitter_count;
+  size_t body_count, link_count, tool_count, emitter_count, eye_count;
   const SporeToolDescription *tools;
   const SporeEmitterDescription *emitters;
+  const SporeEyeDescription *eyes;
   const SporeBodyDescription *bodies;
   const SporeLinkDescription *links;
   SporeVec3 gravity; /* m/s^2 */
@@ -223,19 +209,18 @@ bool spore_world_map_lod(const SporeWorld *world, uint32_t body, SporeLodGrade l
  * such meshes (SporeModelType.carry). mesh: body's frame at rest. */
 bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLodGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error);
-/* Level of detail of a body, and what changes of level did since time 0. */
-typedef struct SporeLodState {
-  SporeLodGrade level; /* now */
-  uint64_t changes;    /* of level that were made */
-  uint64_t refused;    /* changes of level that were refused */
-  double error;        /* m: largest distance by which a change moved a sphere, a node or a point of the surface */
-  double energy;   /* J: largest gain of the body's own energy (kinetic and internal) by a change; negative: each lost
-                      some */
-  double momentum; /* N s: largest error that a change made in the momentum of a free body, or in its angular momentum
-                      about its centre divided by its extent */
-} SporeLodState;
 /* Fills *state. False: the body has but one level. */
 bool spore_world_lod_state(const SporeWorld *world, uint32_t body, SporeLodState *state);
+/* Number of changes of level that were made since time 0, of all bodies. */
+uint64_t spore_world_lod_change_count(const SporeWorld *world);
+/* Change i, from 0; one of the last SPORE_LOD_LOG. */
+SporeLodChange spore_world_lod_change(const SporeWorld *world, uint64_t i);
+/* The rule by which the body changes its level by itself; BY_HAND: it does not. */
+SporeLodRule spore_world_lod_rule(const SporeWorld *world, uint32_t body);
+/* Whether the body is never made coarser by error or by time: an instrument may cut it, at level fine alone. */
+bool spore_world_lod_stays_fine(const SporeWorld *world, uint32_t body);
+/* Whether the same scene and input give the same bits: false where the level of some body follows the clock. */
+bool spore_world_is_repeatable(const SporeWorld *world);
 /* Bytes of the mappings, matrices and states that the levels of a body take, without models and factors. */
 size_t spore_world_lod_memory(const SporeWorld *world, uint32_t body);
 

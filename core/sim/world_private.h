@@ -63,6 +63,7 @@ struct SporeWorld {
   SporePool *pool;
   const SporeCancel *cancel;
   bool has_lod; /* some body has levels of detail */
+  SporeLodSystem levels;
   SporeCommands commands;
   SporeSchedule schedule;
   SporeState state;

@@ -43,6 +43,7 @@ FILES = {
     "large.off": off([(2000 * x, 2000 * y, 2000 * z) for x, y, z in CORNERS], FACES),
     "wide.off": off([(-.1, -.1, -.1), (.1, .1, -.1), (.1, -.1, .1), (-.1, .1, .1)], "012 031 023 132".split()),
     "sheet.off": grid(6, 0.1),
+    "loose.off": grid(3, 0.1),
     "cube.mesh": cells([(0, 0, 0)]),
     "two.mesh": cells([(0, 0, 0), (0.3, 0, 0)]),
     "flat.mesh": "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n.1 0 0 0\n0 0 .1 0\n.03 .001 .03 0\n"
@@ -191,6 +192,15 @@ def pendulum(method):
     return scene(stone(STONE), links='<ball name="j" body_a="stone" point="0.03 0.2 0"/>', solver=f'time_step="0.004" integrator="{method}"')
 
 
+def levelled(rule, levels='<coarse settings="cells=3"/>', **rest):
+    return scene(body("b", '<mechanical geometry="cube"><finite_differences cells="6"/></mechanical>', f"<fidelity {rule}>{levels}</fidelity>"), **rest)
+
+
+def torn(strain):
+    return scene(net(f'<mechanical geometry="sheet"><mass_spring_net tear_strain="{strain}"/></mechanical>',
+                     '<fidelity automatic="error"><coarse geometry="loose"/></fidelity>'), assets=SHEET + '<mesh name="loose" file="loose.off"/>')
+
+
 STALE = generated('source_hash="{cube}" options_hash="0000000000000000"')
 
 
@@ -209,6 +219,13 @@ CHECK = [
     ("\"%s\" asks to be shown as an effect, and is simulated all the same", ["make the mode physical until there is an effect for it"],
      scene(floor(), stone(STONE, BALL, '<fidelity mode="effect"/>')),
      scene(floor(), stone(STONE, BALL, '<fidelity mode="physical"/>'))),
+    ("\"%s\" is to change its level by itself, and has but one", ["add <coarse> or <medium> to its fidelity"],
+     levelled('automatic="error"', levels=""), levelled('automatic="error"')),
+    ("the level of \"%s\" goes by distance, and nothing counts that could be near: it stays at its coarsest level",
+     ["add an instrument or a camera, or make the distance larger than 0"],
+     levelled('automatic="distance"'), levelled('automatic="distance" view_distance="0.1"', tools='<camera name="c"/>')),
+    ("the level of \"%s\" does not get coarser by itself: it may be cut or torn, at level fine alone",
+     ["let its level go by distance, or nothing, if it should stay fine"], torn(0.5), torn(0)),
     ("the tool \"%s\" moves \"%s\", which is not active", ["make its role active, or choose another body"],
      scene(floor(), stone(), tools='<probe name="t" body="stone" device="m"/>', devices=MOUSE),
      scene(tool(), tools=PROBE, devices=MOUSE)),
@@ -414,6 +431,8 @@ PLAN = [
     ("active bodies follow their devices", [], scene(tool(), tools=PROBE, devices=MOUSE), GOOD),
     ("no body is driven by a device or a track", [], GOOD, scene(tool(), tools=PROBE, devices=MOUSE)),
     ("devices feel what active bodies touch", [], scene(tool(), tools=PROBE, devices=MOUSE), GOOD),
+    ("bodies change their level of detail by themselves", [], levelled('automatic="error"'), "levels"),
+    ("no body changes its level of detail by itself", [], "levels", levelled('automatic="error"')),
     ("instruments close, hold or suck", [], GRIPS, scene(tool(), tools=PROBE, devices=MOUSE)),
     ("no instrument does more than touch", [], scene(tool(), tools=PROBE, devices=MOUSE), GRIPS),
     ("nets may tear where they are strained too much", [],
@@ -504,6 +523,12 @@ PLAN = [
     ("pin %s: holds %zu control points of %s, of which no place within the pin's radius stands still\n", [],
      pinned_sheet(13, 0.01, "0.05"), pinned_sheet(25, 0.05)),
     ("(* active; the step is of the whole scene)", [], "levels", FREE),
+    ("%s changes its level by itself, so that its estimated error stays within its tolerance\n", [],
+     levelled('automatic="error"'), levelled('automatic="distance"')),
+    ("%s changes its level by itself: it is fine within %g m of a tool, and %g m of a camera\n", [],
+     levelled('automatic="distance"'), levelled('automatic="error"')),
+    ("%s changes its level by itself, by the time that steps take: two runs of this scene may differ\n", [],
+     levelled('automatic="time"'), levelled('automatic="error"')),
     ("%s: %zu control points, up to %zu as it bends: %zu degrees of freedom then; %.0f kB are kept", [],
      line(10, model='most_bend="0.3" maximum_control_points="40"'), line(10)),
     ("\"%s\" takes at least about %.2g s a step, longer than its time step of %g s; ",

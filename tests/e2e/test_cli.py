@@ -630,6 +630,25 @@ def run_reports_the_contract():
 
 
 @check
+def levels_change_by_themselves_and_are_listed():
+    """Each change is in the report, with its reason; only by time the run says that another one may differ."""
+    for rule, repeatable in (("error", True), ("distance", True), ("time", False)):
+        options = ["--steps", 60, "--set", f"bodies/ovary_right/fidelity/automatic={rule}",
+                   "--set", "bodies/ovary_right/fidelity/tool_distance=0.02"]
+        answer = report("run", SCENES / "levels.spore", *options)
+        assert answer["repeatable"] == repeatable, rule
+        changes = answer["level_changes"]
+        assert len(changes) == answer["levels"][0]["changes"]
+        for change in changes:
+            assert change["by"] == rule and change["reason"] and change["from"] != change["to"], change
+        if repeatable:
+            assert [(c["from"], c["to"]) for c in changes][:1] == [("fine", "medium")], changes
+            assert report("run", SCENES / "levels.spore", *options)["state_hash"] == answer["state_hash"]
+        said = spore("run", SCENES / "levels.spore", *options).stdout
+        assert ("another run of this scene may end in another state" in said) != repeatable, said
+
+
+@check
 def levels_of_a_body_that_does_not_move_are_not_used():
     """A body with levels whose role is changed so that physics does not move it runs without them."""
     for role in ("unmovable", "active"):

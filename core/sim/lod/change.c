@@ -106,18 +106,19 @@ static void accept(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   memcpy(world->state.next_q + body->q_offset, body->lod->q, body->q_count * sizeof(double));
   memcpy(world->state.next_v + body->v_offset, body->lod->v, 3 * body->block_count * sizeof(double));
   take_state(world, body);
-  if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
-    spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
-                       body->name, spore_lod_names[to]);
   spore_body_put(world, index);
   if (pull) spore_world_pull_by(world, index, pulled);
   show_state(world);
 }
 
-static void refuse(SporeWorld *world, SporeBody *body, SporeLodGrade to, const char *reason) {
-  assert(reason);
-  if (body->lod) body->lod->state.refused++;
-  spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_lod_names[to], reason);
+static void log_change(SporeWorld *world, uint32_t index, SporeLodGrade from, SporeLodCause by, double figure) {
+  SporeLodSystem *system = &world->levels;
+  system->log[system->change_count++ % SPORE_LOD_LOG] = (SporeLodChange){.body = index,
+                                                                         .from = from,
+                                                                         .to = world->bodies[index].grade,
+                                                                         .time_s = spore_world_time_s(world),
+                                                                         .by = by,
+                                                                         .figure = figure};
 }
 
 /* Whether the candidate is refused, and the reason as text. It may have more energy than the body only by what lifting
@@ -141,25 +142,48 @@ static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLodGrad
   return true;
 }
 
-void spore_world_change_lod(SporeWorld *world, uint32_t index, SporeLodGrade to) {
-  assert(index < world->body_count);
-  assert((unsigned)to < SPORE_LOD_COUNT);
-  SporeBody *body = &world->bodies[index];
-  if (body->grade == to) return;
+/* Fits the level and looks at it. False: it is refused. */
+static bool is_good(const SporeWorld *world, uint32_t index, SporeLodGrade to, double *error, char *reason,
+                    size_t size) {
+  const SporeBody *body = &world->bodies[index];
   const char *fault = fault_of(world, index, to);
   if (fault) {
-    refuse(world, body, to, fault);
-    return;
+    snprintf(reason, size, "%s", fault);
+    return false;
   }
-  char reason[300];
   spore_lod_fit(world, body, to);
-  double error = spore_lod_error(body->lod, to);
-  if (refuses(world, body, to, error, reason, sizeof reason)) {
-    refuse(world, body, to, reason);
-    return;
+  *error = spore_lod_error(body->lod, to);
+  return !refuses(world, body, to, *error, reason, size);
+}
+
+bool spore_world_try_lod(SporeWorld *world, uint32_t index, SporeLodGrade to, SporeLodCause cause, double figure,
+                         char *reason, size_t size) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LOD_COUNT && world->bodies[index].grade != to);
+  SporeBody *body = &world->bodies[index];
+  SporeLodGrade from = body->grade;
+  double error;
+  if (!is_good(world, index, to, &error, reason, size)) {
+    if (body->lod) body->lod->state.refused++;
+    return false;
   }
   note_change(world, body, to, error);
   accept(world, index, to);
+  log_change(world, index, from, cause, figure);
+  return true;
+}
+
+void spore_world_change_lod(SporeWorld *world, uint32_t index, SporeLodGrade to) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LOD_COUNT);
+  const SporeBody *body = &world->bodies[index];
+  char reason[300];
+  if (body->grade == to) return;
+  if (!spore_world_try_lod(world, index, to, SPORE_LOD_BY_HAND, 0, reason, sizeof reason))
+    spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_lod_names[to], reason);
+  else if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
+    spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
+                       body->name, spore_lod_names[to]);
 }
 
 void spore_world_set_lod(SporeWorld *world, uint32_t index, SporeLodGrade to) {

@@ -141,6 +141,15 @@ void spore_lod_fit(const SporeWorld *world, const SporeBody *body, SporeLodGrade
   keep_motion(body->model, q, v, level, free, levels->q, levels->v);
 }
 
+void spore_lod_place(const SporeLod *levels, SporeLodGrade to) {
+  assert(levels->level[to].model);
+  SporeLodLevel free_level = levels->level[to];
+  free_level.held_count = 0;
+  Fit fit = {levels, &free_level, free_level.model->node_count - !spore_model_is_nodal(free_level.model)};
+  begin(&fit, levels->q);
+  solve(&fit, levels->before, levels->q);
+}
+
 /* Greatest distance of `count` samples from index `start` on, m. */
 static double distance_of(const SporeLod *levels, size_t start, size_t count) {
   assert(start + count <= levels->sample_count);

@@ -59,6 +59,7 @@ bool spore_lod_make(SporeWorld *world, SporeBody *body, const SporeBodyDescripti
   if (!levels) return no_memory(error);
   levels->tolerance = from->lod.tolerance;
   levels->first = from->lod.first;
+  levels->automation.rule = from->lod.rule;
   levels->level[SPORE_LOD_FINE].model = body->model;
   make_room(levels, body->model);
   for (int k = 0; k < SPORE_LOD_FINE; k++) {
@@ -160,6 +161,8 @@ void spore_world_select_lod(SporeWorld *world, uint32_t index, SporeLodGrade gra
 }
 
 void spore_world_reset_lod(SporeWorld *world) {
+  world->levels.change_count = 0;
+  world->levels.clock = (SporeLodClock){.changed_body = SPORE_NO_BODY};
   for (uint32_t b = 0; world->has_lod && b < world->body_count; b++) {
     SporeLod *levels = world->bodies[b].lod;
     if (!levels) continue;
@@ -167,6 +170,8 @@ void spore_world_reset_lod(SporeWorld *world) {
     take_rest(world,
               &world->bodies[b]); /* a change while the world runs leaves the rest state of another level there */
     levels->state = (SporeLodState){.level = levels->first};
+    levels->automation =
+        (SporeLodAutomation){.rule = levels->automation.rule, .stays_fine = levels->automation.stays_fine};
   }
 }
 
@@ -267,7 +272,9 @@ static bool make_levels(SporeWorld *world, const SporeWorldDescription *descript
     return spore_error_set(error, reason.code, *reason.place ? reason.place : place, _("level %s: %s"),
                            spore_lod_names[k], reason.message);
   }
-  return spore_lod_sample(world, &description->bodies[index], index, error);
+  if (!spore_lod_sample(world, &description->bodies[index], index, error)) return false;
+  if (levels->automation.rule.by == SPORE_LOD_BY_ERROR) spore_lod_measure_levels(levels);
+  return true;
 }
 
 bool spore_world_create_lod(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
@@ -350,6 +357,13 @@ SporeLodGrade spore_world_first_lod(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
   const SporeLod *levels = world->bodies[body].lod;
   return levels ? levels->first : SPORE_LOD_FINE;
+}
+
+uint64_t spore_world_lod_change_count(const SporeWorld *world) { return world->levels.change_count; }
+
+SporeLodChange spore_world_lod_change(const SporeWorld *world, uint64_t i) {
+  assert(i < world->levels.change_count && world->levels.change_count - i <= SPORE_LOD_LOG);
+  return world->levels.log[i % SPORE_LOD_LOG];
 }
 
 bool spore_world_lod_state(const SporeWorld *world, uint32_t body, SporeLodState *state) {
