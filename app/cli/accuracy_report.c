@@ -13,17 +13,18 @@ const SporeReportMember spore_accuracy_members[] = {
     {"reference", N_("that errors are measured from: method, dt_s, own_error (by its steps, in lengths of a body), "
                      "order (observed), "
                      "cross_method, cross_dt_s, cross_difference (how far the second method is from it; null: there "
-                     "was none), agreed")},
+                     "was none), agreed, gap_m and line_stretch (as of points)")},
     {"resolution",
      N_("growth (how far a run drifted whose start was moved by 1e-8), chaotic (growth above 1e-3: errors are then of "
         "mean places over the stretch), spread (of such means over perturbed runs), floor (errors below cannot be "
         "told)")},
     {"points",
      N_("method, dt_s, level, error (root of the mean square, in lengths of a body), final, worst, energy_drift (of "
-        "the "
-        "energy at work), penetration (by the smaller radius), us_per_step, p99_us, real_time_factor, cpu_s (for a "
-        "simulated second), stable, as_written (no step was unsolved), resolved (above the floor), pareto, repeats, "
-        "and a step: force_evaluations, newton, linear")},
+        "the energy at work), penetration (by the smaller radius), gap_m (largest between points that a link holds "
+        "together), line_stretch (largest part by which a piece of a line is longer or shorter than at rest; both null: "
+        "there is none), us_per_step, p99_us, real_time_factor, cpu_s (for a simulated second), stable, as_written "
+        "(no step was unsolved), resolved (above the floor), pareto, repeats, and a step: force_evaluations, newton, "
+        "linear")},
     {"methods",
      N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
         "smooth), converges (false: at these steps smaller ones do not help, while another method is much nearer)")},
@@ -56,6 +57,8 @@ static void report_stretch(SporeCli *cli, const char *scene, const SporeAccuracy
   spore_cli_number(cli, "cross_dt_s", crossed ? reference->cross_dt_s : NAN);
   spore_cli_number(cli, "cross_difference", crossed ? reference->cross_difference : NAN);
   add_boolean(cli, "agreed", reference->agreed);
+  spore_cli_number(cli, "gap_m", reference->gap);
+  spore_cli_number(cli, "line_stretch", reference->line_stretch);
   spore_cli_close(cli);
   spore_cli_open(cli, "resolution");
   spore_cli_number(cli, "growth", report->growth);
@@ -75,6 +78,8 @@ static void report_point(SporeCli *cli, const SporeAccuracyReport *report, const
   spore_cli_number(cli, "worst", point->worst);
   spore_cli_number(cli, "energy_drift", point->energy_drift);
   spore_cli_number(cli, "penetration", point->penetration);
+  spore_cli_number(cli, "gap_m", point->gap);
+  spore_cli_number(cli, "line_stretch", point->line_stretch);
   spore_cli_number(cli, "us_per_step", point->us_per_step);
   spore_cli_number(cli, "p99_us", point->p99_us);
   spore_cli_number(cli, "real_time_factor", point->real_time_factor);
@@ -128,19 +133,33 @@ static void report_lists(SporeCli *cli, const SporeAccuracyReport *report) {
   spore_cli_text(cli, "sentence", report->sentence);
 }
 
+/* A number in a column of what the scene may not have at all: then there is no such column. */
+static char *column_of(double reference, double value) {
+  return isnan(reference) ? g_strdup("") : g_strdup_printf(" %9.2g", value);
+}
+
+static void say_heads(SporeCli *cli, const SporeAccuracyReport *report, int width) {
+  const SporeAccuracyReference *reference = &report->reference;
+  spore_cli_say(cli, "%-*s %9s %8s %9s %9s %9s", width, _("method"), _("step ms"),
+                report->level_count ? _("level") : "", _("error %"), _("energy %"), _("depth"));
+  if (!isnan(reference->gap)) spore_cli_say(cli, " %9s", _("gap mm"));
+  if (!isnan(reference->line_stretch)) spore_cli_say(cli, " %9s", _("stretch %"));
+  spore_cli_say(cli, " %9s %9s\n", _("us a step"), _("real time"));
+}
+
 static void say_points(SporeCli *cli, const SporeAccuracyReport *report) {
   int width = 17;
   for (gsize m = 0; m < report->method_count; m++) width = MAX(width, (int)strlen(report->methods[m].label));
-  spore_cli_say(cli, "%-*s %9s %8s %9s %9s %9s %9s %9s  %s\n", width, _("method"), _("step ms"),
-                report->level_count ? _("level") : "", _("error %"), _("energy %"), _("depth"), _("us a step"),
-                _("real time"), "");
+  say_heads(cli, report, width);
   for (gsize i = 0; i < report->point_count; i++) {
     const SporeAccuracyPoint *point = &report->points[i];
-    spore_cli_say(cli, "%-*s %9.4g %8s %9.2g %9.2g %9.2g %9.4g %8.3gx  %s\n", width,
+    g_autofree char *gap = column_of(report->reference.gap, 1e3 * point->gap),
+                    *stretch = column_of(report->reference.line_stretch, 100 * point->line_stretch);
+    spore_cli_say(cli, "%-*s %9.4g %8s %9.2g %9.2g %9.2g%s%s %9.4g %8.3gx  %s\n", width,
                   report->methods[point->method].label, 1e3 * point->dt_s,
                   point->level < 0 ? "" : spore_accuracy_level_name(point->level), 100 * point->error,
-                  100 * point->energy_drift, point->penetration, point->us_per_step, point->real_time_factor,
-                  spore_accuracy_remark(point));
+                  100 * point->energy_drift, point->penetration, gap, stretch, point->us_per_step,
+                  point->real_time_factor, spore_accuracy_remark(point));
   }
 }
 

@@ -47,6 +47,10 @@ char *spore_accuracy_describe(const SporeAccuracyReport *report) {
                              "which spread by %.2g %%\n"),
                            100 * report->growth, 100 * report->spread);
   g_string_append_printf(text, _("errors below %.2g %% cannot be told from the reference's\n"), 100 * report->floor);
+  if (!isnan(reference->gap))
+    g_string_append_printf(text, _("links part by %.2g mm at most in the reference\n"), 1e3 * reference->gap);
+  if (!isnan(reference->line_stretch))
+    g_string_append_printf(text, _("lines stretch by %.2g %% at most in the reference\n"), 100 * reference->line_stretch);
   return g_string_free(text, FALSE);
 }
 
@@ -81,9 +85,10 @@ static void append_number(GString *text, double value) {
 }
 
 char *spore_accuracy_csv(const SporeAccuracyReport *report) {
-  GString *text = g_string_new("method,level,dt_s,error,final,worst,energy_drift,penetration,us_per_step,p99_us,"
-                               "real_time_factor,cpu_s,force_evaluations,newton,linear,stable,as_written,resolved,"
-                               "pareto,repeats\n");
+  GString *text =
+      g_string_new("method,level,dt_s,error,final,worst,energy_drift,penetration,gap_m,line_stretch,us_per_step,p99_us,"
+                   "real_time_factor,cpu_s,force_evaluations,newton,linear,stable,as_written,resolved,"
+                   "pareto,repeats\n");
   for (gsize i = 0; i < report->point_count; i++) {
     const SporeAccuracyPoint *p = &report->points[i];
     const double row[] = {p->dt_s,
@@ -92,6 +97,8 @@ char *spore_accuracy_csv(const SporeAccuracyReport *report) {
                           p->worst,
                           p->energy_drift,
                           p->penetration,
+                          p->gap,
+                          p->line_stretch,
                           p->us_per_step,
                           p->p99_us,
                           p->real_time_factor,
@@ -120,8 +127,15 @@ char *spore_accuracy_plot(const char *scene, const SporeAccuracyReport *report, 
 
 static void append_cell(GString *page, double value) { g_string_append_printf(page, "<td>%.3g</td>", value); }
 
+/* What the scene may not have at all. */
+static void append_known(GString *page, double value, double scale) {
+  if (isnan(value)) g_string_append(page, "<td></td>");
+  else append_cell(page, scale * value);
+}
+
 static void append_table(GString *page, const SporeAccuracyReport *report) {
-  const char *const heads[] = {_("method"),    _("step ms"),   _("level"), _("error %"), _("energy %"), _("depth"),
+  const char *const heads[] = {_("method"),    _("step ms"),   _("level"),  _("error %"),
+                               _("energy %"),  _("depth"),     _("gap mm"), _("stretch %"),
                                _("us a step"), _("real time"), ""};
   g_string_append(page, "<table>\n<tr>");
   for (gsize i = 0; i < G_N_ELEMENTS(heads); i++) g_string_append_printf(page, "<th>%s</th>", heads[i]);
@@ -137,6 +151,8 @@ static void append_table(GString *page, const SporeAccuracyReport *report) {
     append_cell(page, 100 * point->error);
     append_cell(page, 100 * point->energy_drift);
     append_cell(page, point->penetration);
+    append_known(page, point->gap, 1e3);
+    append_known(page, point->line_stretch, 100);
     append_cell(page, point->us_per_step);
     append_cell(page, point->real_time_factor);
     g_string_append_printf(page, "<td>%s</td></tr>\n", spore_accuracy_remark(point));

@@ -46,6 +46,8 @@ static void judge_point(SporeStudy *study, size_t i) {
   point->worst = apart.worst;
   point->energy_drift = energy_drift(trial, &study->reference);
   point->penetration = trial->penetration;
+  point->gap = trial->gap;
+  point->line_stretch = trial->line_stretch;
   point->cost = spore_quantile(study->costs + i * study->options->repeats, point->repeats, 0.5);
   point->us_per_step = 1e6 * point->cost * trial->dt_s;
   point->p99_us = trial->p99_us;

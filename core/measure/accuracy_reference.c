@@ -203,6 +203,8 @@ static bool run_reference(SporeStudy *study, int level, SporeTrial *coarse, Spor
   if (!run(study, reference->method, level, dt_s, 0, &study->reference)) return false;
   if (!find_own_error(study, coarse, middle)) return false;
   study->report->contacts = study->reference.contacts / fmax(1, (double)study->reference.steps);
+  reference->gap = study->reference.gap;
+  reference->line_stretch = study->reference.line_stretch;
   if (study->report->statistics) take_means(study);
   study->done = 0.5;
   return cross_check(study, level);

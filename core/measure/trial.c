@@ -9,6 +9,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/body/momentum.h"
+#include "core/measure/stretch.h"
 
 #define WHOLE 1e-6 /* of a step: what is that near to a whole number of steps is one */
 
@@ -23,7 +24,8 @@ typedef struct Run {
   const SporeTrialPoints *points;
   const SporeTrialSettings *settings;
   SporeMapping *mappings; /* of each body followed; of particles empty */
-  bool lines;             /* control points come and go */
+  SporeStretch stretch;
+  bool lines; /* control points come and go */
 } Run;
 
 static bool no_memory(SporeError *error) {
@@ -166,6 +168,8 @@ static void look(Run *run) {
   trial->kinetic[s] = energy.kinetic;
   spore_vec3_store(trial->momentum + 3 * s, momentum_of(run->world));
   trial->finite &= isfinite(trial->energy[s]) != 0;
+  trial->gap = fmax(trial->gap, spore_stretch_gap(run->world));
+  trial->line_stretch = fmax(trial->line_stretch, spore_stretch_of_lines(&run->stretch, run->world, snapshot));
   if (s > 0) trial->penetration = fmax(trial->penetration, deepest(run->world, snapshot));
   trial->samples++;
 }
@@ -215,12 +219,16 @@ static void judge(Run *run) {
 bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoints *points,
                      const SporeTrialSettings *settings, SporeError *error) {
   assert(settings->interval_s > 0 && settings->dt_s > 0);
-  *trial = (SporeTrial){
-      .world_bodies = spore_world_body_count(world), .points = points->count, .dt_s = settings->dt_s, .finite = true};
+  *trial = (SporeTrial){.world_bodies = spore_world_body_count(world),
+                        .points = points->count,
+                        .dt_s = settings->dt_s,
+                        .finite = true,
+                        .gap = NAN,
+                        .line_stretch = NAN};
   Run run = {.trial = trial, .world = world, .points = points, .settings = settings};
   size_t each = (size_t)fmax(1, round(settings->interval_s / settings->dt_s));
   bool good = allocate(&run) || no_memory(error);
-  good = good && map_points(&run, error);
+  good = good && map_points(&run, error) && spore_stretch_create(&run.stretch, world, error);
   if (good && settings->perturbation > 0) good = perturb(&run) || no_memory(error);
   if (good && !settings->timed_only) look(&run);
   for (size_t s = 0; good && s < settings->samples && step(&run, each); s++)
@@ -228,6 +236,7 @@ bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoint
   if (good) judge(&run);
   for (size_t k = 0; run.mappings && k < points->body_count; k++) spore_mapping_clear(&run.mappings[k]);
   spore_free(run.mappings);
+  spore_stretch_clear(&run.stretch);
   if (!good) spore_trial_clear(trial);
   return good;
 }

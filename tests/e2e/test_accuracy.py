@@ -76,6 +76,7 @@ def report_holds_what_the_contract_says():
     pareto = [report["points"][i] for i in report["pareto"]]
     assert pareto and all(point["pareto"] and point["stable"] for point in pareto)
     assert all(a["error"] > b["error"] and a["cpu_s"] < b["cpu_s"] for a, b in zip(pareto, pareto[1:])), pareto
+    assert all(point["gap_m"] == 0 and point["line_stretch"] is None for point in report["points"]), "a spring, and no line"
     assert report["sentence"].startswith("tr_bdf2 at 2 ms: ") and report["sentence"] in (WORK / "a.html").read_text()
     with open(WORK / "a.csv", newline="") as opened:
         rows = list(csv.DictReader(opened))
