@@ -246,6 +246,9 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
       {"assets",
        N_("files that the scene names: name, use (simulated, drawn, source: something is generated from it, unused), "
           "bytes (null: cannot be read)")},
+      {"shaders",
+       N_("that a picture of the scene takes; a run takes none: name, bodies (that it draws; 0: it is for the whole "
+          "picture; empty: this build makes none)")},
       {"libraries", N_("that the program has loaded for this command")},
       {"mappings",
        N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "

@@ -1,10 +1,14 @@
-/* What spore plan says of a scene's needs: models, files and libraries, and what leaving the rest out saves. */
+/* What spore plan says of a scene's needs: models, files, shaders and libraries, and what leaving the rest out saves.
+ */
 #include <glib/gi18n.h>
 #include <link.h>
 #include <math.h>
 
 #include "app/cli/plan_tables.h"
 #include "core/scene/needs.h"
+#ifdef SPORE_HAVE_RENDER
+#include "ui/render/shader_needs.h"
+#endif
 
 /* Models. */
 
@@ -85,6 +89,29 @@ void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs) {
   report_files(cli, needs, SPORE_ASSET_UNUSED, _("nothing names them"));
 }
 
+/* Shaders. A run draws nothing, so that what is listed is of a picture, in a build that makes some. */
+
+static void report_shaders(SporeCli *cli, const SporeRun *run) {
+  g_autoptr(GString) row = g_string_new(NULL);
+  spore_cli_open_array(cli, "shaders");
+#ifdef SPORE_HAVE_RENDER
+  g_autoptr(GArray) needs = spore_shader_needs(run->document, run->simulation);
+  for (guint i = 0; i < needs->len; i++) {
+    const SporeShaderNeed *need = &g_array_index(needs, SporeShaderNeed, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", need->name);
+    spore_cli_count(cli, "bodies", need->bodies);
+    spore_cli_close(cli);
+    g_string_append_printf(row, i ? ", %s" : "%s", need->name);
+    if (need->bodies) g_string_append_printf(row, " (%u)", need->bodies);
+  }
+#else
+  (void)run;
+#endif
+  spore_cli_close_array(cli);
+  spore_cli_say(cli, _("shaders: none, a run draws nothing; of a picture (bodies): %s\n"), row->len ? row->str : "-");
+}
+
 /* Libraries. */
 
 static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
@@ -99,6 +126,7 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
 void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs) {
   report_models(cli, run->simulation->world);
   report_assets(cli, needs);
+  report_shaders(cli, run);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);
   spore_cli_close_array(cli);

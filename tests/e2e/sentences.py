@@ -495,6 +495,7 @@ PLAN = [
 
     ("of %g us that are simulated in it\n", [], STILL, None),
     ("models (bodies): %s\n", [], FREE, STILL),
+    ("shaders: none, a run draws nothing; of a picture (bodies): %s\n", [], STILL, None),
     ("files: %u simulated (%.3g kB), %u only drawn (%.3g kB)\n", [], FREE, scene(body("a", role="unmovable"), assets="")),
     ("left out: %s (%s): saves %.3g kB\n", ["sources: a run reads what was generated from them"],
      scene(body("organ", SOFT), assets=MADE), generated("")),

@@ -903,6 +903,17 @@ def plan_says_why():
 
 
 @check
+def plan_names_the_shaders_of_a_picture():
+    """steam takes puffs, an organ does not, and a build that draws nothing takes none"""
+    steam, organ = ({shader["name"]: shader["bodies"] for shader in report("plan", SCENES / f"{name}.spore")["shaders"]}
+                    for name in ("plate7-steam", "plate1-ovary"))
+    if "render" not in FEATURES:
+        assert not steam and not organ, (steam, organ)
+        return
+    assert steam["puff.frag"] == 1 and "puff.frag" not in organ and organ["surface.frag"] > 1 and organ["composite.frag"] == 0, (steam, organ)
+
+
+@check
 def plan_tells_files_apart():
     """plan says which files a run reads, which are only drawn, and which others were made from."""
     needs = {asset["name"]: asset for asset in report("plan", SCENES / "plate1-ovary.spore")["assets"]}

@@ -7,6 +7,7 @@
 #include "core/scene/schema_fields.h"
 #include "models/registry.h"
 #include "tests/render/scenery.h"
+#include "ui/render/shader_needs.h"
 #include "ui/render/stage_body.h"
 
 #define MINIMAL SPORE_SCENES "/minimal.spore"
@@ -391,6 +392,54 @@ static void test_node_splitting_is_seen(void) {
   setting_close(&setting);
 }
 
+/* Bodies that a shader draws, by what was said before there was a picture; -1: the shader was not named. */
+static int said_of(const GArray *needs, const char *shader) {
+  int bodies = -1;
+  for (guint i = 0; i < needs->len; i++) {
+    const SporeShaderNeed *need = &g_array_index(needs, SporeShaderNeed, i);
+    if (g_str_equal(need->name, shader)) bodies = MAX(bodies, 0) + (int)need->bodies;
+  }
+  return bodies;
+}
+
+typedef struct Shaders {
+  const char *scene, *bare; /* bare: a body whose visual unit is taken away; NULL: none */
+  int steps;                /* until there is something of all that the scene shows */
+  int spheres, puffs;       /* bodies; -1: none */
+} Shaders;
+
+static void compare_shaders(const Shaders *expected) {
+  static const char *const all[] = {"surface.frag",   "sphere.frag", "puff.frag", "line.frag",     "background.frag",
+                                    "occlusion.frag", "smooth.frag", "glow.frag", "composite.frag"};
+  g_autofree char *file = g_strdup_printf(SPORE_SCENES "/%s.spore", expected->scene);
+  Setting setting = setting_open(file);
+  if (expected->bare) {
+    SporeObject *body = spore_document_find(setting.document, "body", expected->bare);
+    g_assert_true(spore_document_remove(setting.document, spore_object_child_of(body, "visual"), NULL));
+  }
+  setting_run(&setting, expected->steps);
+  g_autoptr(GArray) needs = spore_shader_needs(setting.document, setting.simulation);
+  SporeCamera camera = straight_camera(0.5);
+  Picture picture = draw_picture(setting.bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, TRUE, FALSE);
+  picture_clear(&picture);
+  for (guint i = 0; i < G_N_ELEMENTS(all); i++)
+    if ((said_of(needs, all[i]) >= 0) != spore_renderer_has_used(setting.bench.renderer, all[i]))
+      g_error("%s: %s", expected->scene, all[i]);
+  g_assert_cmpint(said_of(needs, "sphere.frag"), ==, expected->spheres);
+  g_assert_cmpint(said_of(needs, "puff.frag"), ==, expected->puffs);
+  setting_close(&setting);
+}
+
+/* What a picture of a scene takes is what is said before the picture is drawn, no more and no less. */
+static void test_shaders(void) {
+  static const Shaders scenes[] = {{"minimal", NULL, 1, -1, -1},
+                                   {"minimal", "floor", 1, 1, -1},
+                                   {"table1-fluid", NULL, 1, -1, -1},
+                                   {"plate7-steam", NULL, 400, -1, 1},
+                                   {"plate6-intestine", NULL, 1, -1, -1}};
+  for (guint i = 0; i < G_N_ELEMENTS(scenes); i++) compare_shaders(&scenes[i]);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
@@ -405,6 +454,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);
   g_test_add_func("/render/stage/camera-rolls", test_camera_rolls);
   g_test_add_func("/stage/camera-rolls", test_camera_rolls);
+  g_test_add_func("/render/stage/shaders", test_shaders);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
   g_test_add_func("/render/stage/cut-is-seen", test_cut_is_seen);

@@ -25,7 +25,15 @@ void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gs
     for (int i = 0; i < 3; i++) drawable->origin[i] = count ? (lower[i] + upper[i]) / 2 : 0;
 }
 
-static void free_surface(SporeSurface *surface) {
+gboolean spore_drawables_show(const GPtrArray *drawables, SporeDrawableKind kind) {
+  for (guint i = 0; i < drawables->len; i++) {
+    const SporeDrawable *drawable = drawables->pdata[i];
+    if (drawable && drawable->visible && drawable->kind == kind) return TRUE;
+  }
+  return FALSE;
+}
+
+static void free_surface(SporeSurfaceGroup *surface) {
   GLuint buffers[] = {surface->moving, surface->rest, surface->values, surface->indices};
   glDeleteBuffers(G_N_ELEMENTS(buffers), buffers);
   glDeleteVertexArrays(1, &surface->vertex_array);
@@ -54,7 +62,7 @@ void spore_drawable_free(SporeDrawable *drawable) {
   if (!drawable) return;
   switch (drawable->kind) {
   case SPORE_DRAW_SURFACE:
-    free_surface((SporeSurface *)drawable);
+    free_surface((SporeSurfaceGroup *)drawable);
     break;
   case SPORE_DRAW_SPHERES:
     free_spheres((SporeSphereGroup *)drawable);

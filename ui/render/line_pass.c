@@ -54,6 +54,7 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
 
 gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                          gboolean hidden, GError **error) {
+  if (!spore_drawables_show(drawables, SPORE_DRAW_LINES)) return TRUE;
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_LINE, variant, error);
   if (!program) return FALSE;
   glUseProgram(program->id);

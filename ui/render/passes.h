@@ -42,6 +42,8 @@ typedef struct SporePrograms {
 const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind kind, SporeVariant variant,
                                        GError **error);
 void spore_programs_clear(SporePrograms *programs);
+/* File of its fragment shader. */
+const char *spore_program_name(SporeProgramKind kind);
 
 /* Texture units of the full variant. */
 enum { SPORE_UNIT_OCCLUSION, SPORE_UNIT_SHADOW, SPORE_UNIT_COLOUR, SPORE_UNIT_DEPTH, SPORE_UNIT_GLOW };
@@ -71,7 +73,7 @@ typedef struct SporeDrawable {
   double origin[3], lower[3], upper[3]; /* m, world */
 } SporeDrawable;
 
-typedef struct SporeSurface {
+typedef struct SporeSurfaceGroup {
   SporeDrawable base;
   GLuint vertex_array, moving, rest, values, indices; /* values 0: has none */
   gsize vertex_count, triangle_count;
@@ -81,7 +83,7 @@ typedef struct SporeSurface {
   gboolean closed; /* so that back faces are never seen */
   float cell;      /* m: size of the pattern of the tissue */
   float axis[3];   /* longest axis at rest */
-} SporeSurface;
+} SporeSurfaceGroup;
 
 typedef struct SporeSphereGroup {
   SporeDrawable base;
@@ -109,9 +111,9 @@ typedef struct SporeLineGroup {
 } SporeLineGroup;
 
 /* The context must be current for all functions below. */
-SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
-                                gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
-void spore_surface_move(SporeSurface *surface, const double *vertices);
+SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
+                                     gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
+void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);
 void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count);
@@ -120,6 +122,8 @@ void spore_puff_group_move(SporePuffGroup *group, const SporePuff *puffs, gsize 
 SporeLineGroup *spore_line_group_new(const double *points, gsize count, const float colour[3], float width);
 void spore_line_group_move(SporeLineGroup *group, const double *points, gsize count);
 void spore_drawable_free(SporeDrawable *drawable);
+/* Whether one of that kind is to be seen. */
+gboolean spore_drawables_show(const GPtrArray *drawables, SporeDrawableKind kind);
 
 /* Sets the uniform of the drawable's offset: its origin relative to the eye. */
 void spore_drawable_set_offset(const SporeDrawable *drawable, const SporeFrame *frame, GLint location);

@@ -142,6 +142,8 @@ const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind
   return program;
 }
 
+const char *spore_program_name(SporeProgramKind kind) { return sources[kind].fragment; }
+
 void spore_programs_clear(SporePrograms *programs) {
   for (int kind = 0; kind < SPORE_PROGRAM_COUNT; kind++)
     for (int variant = 0; variant < SPORE_VARIANT_COUNT; variant++)

@@ -58,6 +58,15 @@ void spore_renderer_free(SporeRenderer *renderer) {
   g_free(renderer);
 }
 
+gboolean spore_renderer_has_used(const SporeRenderer *renderer, const char *shader) {
+  const SporePrograms *programs = &renderer->canvas.programs;
+  for (int kind = 0; kind < SPORE_PROGRAM_COUNT; kind++)
+    if (programs->programs[kind][SPORE_VARIANT_FULL].id &&
+        g_str_equal(spore_program_name((SporeProgramKind)kind), shader))
+      return TRUE;
+  return FALSE;
+}
+
 /* Handles. */
 
 static guint add(SporeRenderer *renderer, SporeDrawable *drawable) {
@@ -93,12 +102,12 @@ guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *v
 }
 
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices) {
-  SporeSurface *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   if (drawable) spore_surface_move(drawable, vertices);
 }
 
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style) {
-  SporeSurface *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   if (drawable) drawable->style = *style;
 }
 

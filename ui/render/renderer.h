@@ -29,6 +29,8 @@ typedef struct SporeSurfaceStyle {
 
 SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);
 void spore_renderer_free(SporeRenderer *renderer);
+/* Whether a picture that was drawn needed this shader: file of a fragment shader in resources/shaders. */
+gboolean spore_renderer_has_used(const SporeRenderer *renderer, const char *shader);
 guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                  const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style);
 /* A surface coloured by the scale (colour_scale.h). values: one a vertex, 0..1; below 0: grey. */

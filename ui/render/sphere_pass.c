@@ -88,6 +88,7 @@ static gboolean draw_hidden(GPtrArray *drawables, const SporeFrame *frame, Spore
 
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error) {
+  if (!spore_drawables_show(drawables, SPORE_DRAW_SPHERES)) return TRUE;
   if (overlays && !draw_hidden(drawables, frame, programs, variant, error)) return FALSE;
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_SPHERE, variant, error);
   if (!program) return FALSE;

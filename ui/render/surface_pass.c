@@ -41,7 +41,7 @@ static float mottling(const double p[3]) {
 }
 
 /* Longest axis of the cloud of vertices: brushed metal is brushed along it. */
-static void longest_axis(const SporeSurface *surface, const double *vertices, float axis[3]) {
+static void longest_axis(const SporeSurfaceGroup *surface, const double *vertices, float axis[3]) {
   double covariance[9] = {0};
   for (gsize v = 0; v < surface->vertex_count; v++)
     for (int i = 0; i < 9; i++)
@@ -73,7 +73,7 @@ static gboolean is_closed(const double *vertices, gsize vertex_count, const guin
   return spore_triangle_mesh_report(&mesh, &report, NULL) && report.closed && report.volume > 0;
 }
 
-static void upload_rest(SporeSurface *surface, const double *vertices) {
+static void upload_rest(SporeSurfaceGroup *surface, const double *vertices) {
   float *rest = g_new(float, 4 * surface->vertex_count);
   for (gsize v = 0; v < surface->vertex_count; v++) {
     double cells[3];
@@ -88,7 +88,7 @@ static void upload_rest(SporeSurface *surface, const double *vertices) {
   g_free(rest);
 }
 
-static void describe_vertices(const SporeSurface *surface) {
+static void describe_vertices(const SporeSurfaceGroup *surface) {
   const GLsizei stride = 6 * sizeof(float);
   glBindVertexArray(surface->vertex_array);
   glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
@@ -110,9 +110,9 @@ static void describe_vertices(const SporeSurface *surface) {
   glBindVertexArray(0);
 }
 
-SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
-                                gsize triangle_count, const SporeSurfaceStyle *style, const float *values) {
-  SporeSurface *surface = g_new0(SporeSurface, 1);
+SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
+                                     gsize triangle_count, const SporeSurfaceStyle *style, const float *values) {
+  SporeSurfaceGroup *surface = g_new0(SporeSurfaceGroup, 1);
   surface->base.kind = SPORE_DRAW_SURFACE;
   surface->base.visible = TRUE;
   surface->vertex_count = vertex_count;
@@ -139,7 +139,7 @@ SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, cons
   return surface;
 }
 
-void spore_surface_move(SporeSurface *surface, const double *vertices) {
+void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
   spore_drawable_set_bounds(&surface->base, vertices, surface->vertex_count, 3, FALSE, FALSE);
   spore_triangle_mesh_normals(vertices, surface->vertex_count, surface->triangles, surface->triangle_count,
                               surface->normals);
@@ -159,7 +159,7 @@ void spore_surface_move(SporeSurface *surface, const double *vertices) {
   glUnmapBuffer(GL_ARRAY_BUFFER);
 }
 
-static void draw_surface(const SporeSurface *surface, const SporeFrame *frame, const SporeProgram *program,
+static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *frame, const SporeProgram *program,
                          gboolean colours) {
   const SporeSurfaceStyle *style = &surface->style;
   spore_drawable_set_offset(&surface->base, frame, program->offset);
@@ -179,6 +179,7 @@ static void draw_surface(const SporeSurface *surface, const SporeFrame *frame, c
 
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, GError **error) {
+  if (!spore_drawables_show(drawables, SPORE_DRAW_SURFACE)) return TRUE;
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_SURFACE, variant, error);
   if (!program) return FALSE;
   gboolean colours = variant < SPORE_VARIANT_DEPTH;
@@ -186,7 +187,7 @@ gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, Spore
   for (guint i = 0; i < drawables->len; i++) {
     const SporeDrawable *drawable = drawables->pdata[i];
     if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
-    const SporeSurface *surface = (const SporeSurface *)drawable;
+    const SporeSurfaceGroup *surface = (const SporeSurfaceGroup *)drawable;
     if (colours || !surface->style.wireframe) draw_surface(surface, frame, program, colours);
   }
   glDisable(GL_CULL_FACE);
