@@ -21,7 +21,8 @@ const SporeReportMember spore_accuracy_members[] = {
     {"points",
      N_("method, dt_s, level, error (root of the mean square, in lengths of a body), final, worst, energy_drift (of "
         "the energy at work), penetration (by the smaller radius), gap_m (largest between points that a link holds "
-        "together), line_stretch (largest part by which a piece of a line is longer or shorter than at rest; both null: "
+        "together), line_stretch (largest part by which a piece of a line is longer or shorter than at rest; both "
+        "null: "
         "there is none), us_per_step, p99_us, real_time_factor, cpu_s (for a simulated second), stable, as_written "
         "(no step was unsolved), resolved (above the floor), pareto, repeats, and a step: force_evaluations, newton, "
         "linear")},

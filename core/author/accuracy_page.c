@@ -50,7 +50,8 @@ char *spore_accuracy_describe(const SporeAccuracyReport *report) {
   if (!isnan(reference->gap))
     g_string_append_printf(text, _("links part by %.2g mm at most in the reference\n"), 1e3 * reference->gap);
   if (!isnan(reference->line_stretch))
-    g_string_append_printf(text, _("lines stretch by %.2g %% at most in the reference\n"), 100 * reference->line_stretch);
+    g_string_append_printf(text, _("lines stretch by %.2g %% at most in the reference\n"),
+                           100 * reference->line_stretch);
   return g_string_free(text, FALSE);
 }
 

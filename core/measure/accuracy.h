@@ -68,7 +68,7 @@ typedef struct SporeAccuracyPoint {
   double final, worst;              /* of the trajectory at the end, and of any point */
   double energy_drift;              /* largest, as a part of the energy at work in the reference */
   double penetration;               /* deepest, by the smaller radius */
-  double gap, line_stretch;              /* of links, m, and of lines, relative; not a number: there are none */
+  double gap, line_stretch;         /* of links, m, and of lines, relative; not a number: there are none */
   double us_per_step, p99_us, cost; /* cost: s on the processor for a simulated s; medians of the repeats */
   double real_time_factor;
   double force_evaluations, newton, linear; /* a step */
@@ -95,7 +95,7 @@ typedef struct SporeAccuracyReference {
   double order;                                        /* observed */
   size_t cross_method;                                 /* the second method; SIZE_MAX: there was none */
   double cross_dt_s, cross_difference, cross_expected; /* expected: its own error by its steps */
-  double gap, line_stretch;                                 /* as those of a point */
+  double gap, line_stretch;                            /* as those of a point */
   bool agreed; /* the second method came to the same, within what both say of their errors */
 } SporeAccuracyReference;
 

@@ -58,8 +58,9 @@ typedef struct SporeTrial {
   double cpu_s;                                       /* of the steps, on the thread's own clock; looks are not in it */
   double median_us, p99_us;                           /* of a step, by the clock, of the last steps */
   double force_evaluations, newton, linear, contacts; /* sums over the steps */
-  double penetration;  /* deepest overlap of two spheres by the smaller radius; looked at with the positions */
-  double gap, line_stretch; /* largest of links, m, and of lines, relative: core/measure/stretch.h; looked at likewise */
+  double penetration; /* deepest overlap of two spheres by the smaller radius; looked at with the positions */
+  double gap,
+      line_stretch;    /* largest of links, m, and of lines, relative: core/measure/stretch.h; looked at likewise */
   double residual;     /* worst, relative */
   uint64_t recoveries; /* steps taken again */
   uint64_t coagulated; /* ties and elements, summed over the steps and tools */
