@@ -89,7 +89,7 @@ static void spore_window_dispose(GObject *object) {
   SporeWindow *self = SPORE_WINDOW(object);
   g_clear_handle_id(&self->autosave, g_source_remove);
   g_clear_handle_id(&self->monitor, g_source_remove);
-  spore_window_release_document(self);
+  if (self->document) spore_window_release_document(self); /* once: the children are gone the second time */
   g_clear_object(&self->job);
   g_clear_pointer(&self->recovery, spore_recovery_free);
   g_clear_pointer(&self->leftover, spore_leftover_free);

@@ -8,6 +8,16 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
+SporeModel *spore_model_create(const SporeModelType *type, const SporeGeometry *geometry, const void *fields,
+                               SporeError *error) {
+  assert(type && geometry && fields);
+  SporeModel *model = type->create(geometry, fields, error);
+  if (!spore_cancel_asked(geometry->cancel)) return model;
+  if (model) type->destroy(model);
+  spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  return NULL;
+}
+
 bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed,
                       SporeError *error) {
   assert(type);

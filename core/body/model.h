@@ -14,6 +14,7 @@
 #ifndef SPORE_SIM_MODEL_H
 #define SPORE_SIM_MODEL_H
 
+#include "core/base/cancel.h"
 #include "core/base/parameter.h"
 #include "core/base/threads.h"
 #include "core/linalg/block_matrix.h"
@@ -38,6 +39,7 @@ typedef struct SporeGeometry {
   const SporeTetrahedralMesh *tetrahedra;
   const SporeCurve *curve;
   const SporeRegions *regions; /* for types that take regions; create counts their elements; NULL: none */
+  const SporeCancel *cancel;   /* ends create; NULL: nothing does */
 } SporeGeometry;
 
 #define SPORE_NO_BODY UINT32_MAX /* in place of the index of a body: the world itself */
@@ -191,7 +193,8 @@ struct SporeModelType {
 
   /* Required. */
   /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place
-   * (element index) and remedy, what it could not simulate: zero mass, flat tetrahedra, a net without edges. */
+   * (element index) and remedy, what it could not simulate: zero mass, flat tetrahedra, a net without edges. What takes
+   * long asks geometry->cancel between bounded pieces of work, and gives up. Call it by spore_model_create. */
   SporeModel *(*create)(const SporeGeometry *geometry, const void *fields, SporeError *error);
   void (*destroy)(SporeModel *model);
   /* State at rest when the body's frame stands at `pose`, moving with velocity (m/s) and spin (rad/s, world axes). */
@@ -270,6 +273,10 @@ struct SporeModelType {
   const SporeModelLine *line;
 };
 
+/* A model of the type: its slot create. SPORE_ERROR_CANCELLED where geometry->cancel ended it, also where the model was
+ * made by then. */
+SporeModel *spore_model_create(const SporeModelType *type, const SporeGeometry *geometry, const void *fields,
+                               SporeError *error);
 /* Fills the base of a model of node_count nodes; framed: the last node is the origin of a frame, which has one block
  * and one quaternion more. block_mass is allocated and zero. False: no memory. */
 bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed, SporeError *error);

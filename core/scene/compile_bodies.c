@@ -147,7 +147,7 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   const SporeObject *mechanical = spore_object_parent(object);
   const SporeModelType *type = spore_object_type(object)->model;
   SporeRegions regions = {0};
-  SporeGeometry geometry = {.regions = &regions};
+  SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
   gboolean described =
       find_geometry(compiler, mechanical, type, &geometry) && find_regions(compiler, body, object, &regions);
   g_autofree SporeRegion *owned = regions.regions;
@@ -155,7 +155,7 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   SporeError fault = SPORE_ERROR_INIT;
   g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
   spore_object_fields(object, fields);
-  description->model = type->create(&geometry, fields, &fault);
+  description->model = spore_model_create(type, &geometry, fields, &fault);
   description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
   description->substeps = (size_t)spore_object_number(mechanical, "substeps");
   if (description->model && check_regions(compiler, body, &regions)) return TRUE;
@@ -171,7 +171,7 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
 static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
   const SporeModelType *type = spore_object_type(model)->model;
   SporeRegions regions = {0};
-  SporeGeometry geometry = {.regions = &regions};
+  SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
   SporeLodFields level_fields;
   SporeError fault = SPORE_ERROR_INIT;
   spore_object_fields(level, &level_fields);
@@ -183,7 +183,7 @@ static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, Sp
   g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
   spore_object_fields(model, fields);
   if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))
-    *made = type->create(&geometry, fields, &fault);
+    *made = spore_model_create(type, &geometry, fields, &fault);
   return *made || spore_compiler_pass_on(compiler, level, &fault);
 }
 

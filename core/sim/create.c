@@ -13,6 +13,9 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
 }
 
+/* False where the making was cancelled; spore_world_create says so. */
+static bool go_on(const SporeWorld *world) { return !spore_cancel_asked(world->cancel); }
+
 static bool finite_all(const double *values, size_t count) {
   assert(count == 0 || values);
   for (size_t i = 0; i < count; i++)
@@ -154,7 +157,7 @@ static bool create_bodies(SporeWorld *world, const SporeWorldDescription *descri
   if (!world->state.rest_q || !world->state.rest_v) return no_memory(error);
   for (size_t i = 0; i < n; i++) {
     SporeBody *body = &world->bodies[i];
-    if (!spore_body_create_matrix(body, error)) return false;
+    if (!go_on(world) || !spore_body_create_matrix(body, error)) return false;
     place_body(world, body, &description->bodies[i]);
     if (!finite_all(world->state.rest_q + body->q_offset, body->q_count) ||
         !finite_all(world->state.rest_v + body->v_offset, 3 * body->block_count))
@@ -173,7 +176,7 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
     const SporeSphereSet *set = description->bodies[i].spheres;
     if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
     body->collision.start = all->count;
-    if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
+    if (!go_on(world) || !spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
     assert(body->collision.spheres.point_count == (set ? set->count : 0));
     if (set && !spore_spheres_radii(set, all->radius + all->count, 1)) return no_memory(error);
     for (size_t s = 0; set && s < set->count; s++) all->body[all->count + s] = (uint32_t)i;
@@ -284,13 +287,14 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
   world->links.hold_count = spore_tools_spring_count(description);
-  bool made =
-      create_bodies(world, description, error) && create_spheres(world, description, error) &&
-      spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
-      spore_world_create_particles(world, description, error) &&
-      (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
-      spore_world_create_lod(world, description, error) && spore_lod_create_automation(world, description, error) &&
-      allocate_vectors(world, error) && check_steps(world, error);
+  bool made = create_bodies(world, description, error) && create_spheres(world, description, error) && go_on(world) &&
+              spore_world_create_links(world, description, error) &&
+              spore_world_create_tools(world, description, error) &&
+              spore_world_create_particles(world, description, error) && go_on(world) &&
+              (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
+              go_on(world) && spore_world_create_lod(world, description, error) &&
+              spore_lod_create_automation(world, description, error) && allocate_vectors(world, error) &&
+              go_on(world) && check_steps(world, error);
   if (spore_cancel_asked(world->cancel)) {
     spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
     return give_up(world);

@@ -75,7 +75,7 @@ static bool is_thin(const SporeVoxels *voxels) {
 
 static bool build(Body *body, const SporeGeometry *geometry, const GridFields *fields, SporeError *error) {
   SporeVoxels voxels;
-  if (!spore_voxels_create(&voxels, geometry->surface, (size_t)fields->cells, error)) return false;
+  if (!spore_voxels_create(&voxels, geometry->surface, (size_t)fields->cells, geometry->cancel, error)) return false;
   body->thin = is_thin(&voxels);
   if (!spore_lattice_create(&body->lattice, &voxels)) return no_memory(error);
   if (!spore_model_init(&body->base, &spore_finite_differences, body->lattice.node_count, false, error)) return false;

@@ -118,14 +118,17 @@ static bool find_parts(SporeVoxels *voxels) {
   return made;
 }
 
-static bool fill(SporeVoxels *voxels, const SporeTriangleMesh *surface, SporeError *error) {
+static bool fill(SporeVoxels *voxels, const SporeTriangleMesh *surface, const SporeCancel *cancel, SporeError *error) {
   SporeBvh *bvh = spore_bvh_create(surface, error);
   if (!bvh) return false;
+  bool filled = true;
   for (size_t i = 0, cell = 0; i < voxels->size[0]; i++)
-    for (size_t j = 0; j < voxels->size[1]; j++)
+    for (size_t j = 0; filled && j < voxels->size[1]; j++) {
       for (size_t k = 0; k < voxels->size[2]; k++) voxels->share[cell++] = share_of(voxels, bvh, i, j, k);
+      filled = !spore_cancel_asked(cancel);
+    }
   spore_bvh_free(bvh);
-  return find_parts(voxels) || no_memory(error);
+  return filled && (find_parts(voxels) || no_memory(error));
 }
 
 static bool check_parts(size_t parts, const SporeMeshReport *report, SporeError *error) {
@@ -145,7 +148,8 @@ static bool check_parts(size_t parts, const SporeMeshReport *report, SporeError 
                          parts);
 }
 
-bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, SporeError *error) {
+bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, const SporeCancel *cancel,
+                         SporeError *error) {
   assert(cells > 0);
   SporeMeshReport report;
   *voxels = (SporeVoxels){0};
@@ -153,7 +157,7 @@ bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, 
   voxels->volume = fabs(report.volume);
   voxels->share = SPORE_NEW_ARRAY(double, spore_voxels_count(voxels));
   if (!voxels->share) return no_memory(error);
-  if (fill(voxels, surface, error) && check_parts(voxels->parts, &report, error)) return true;
+  if (fill(voxels, surface, cancel, error) && check_parts(voxels->parts, &report, error)) return true;
   spore_voxels_clear(voxels);
   return false;
 }

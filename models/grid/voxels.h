@@ -2,6 +2,7 @@
 #ifndef SPORE_MODELS_GRID_VOXELS_H
 #define SPORE_MODELS_GRID_VOXELS_H
 
+#include "core/base/cancel.h"
 #include "core/mesh/mesh.h"
 
 /* Its axis 2 is the longest of the surface's box, axes 0 and 1 follow it, so that the three are right-handed. Cell
@@ -19,7 +20,8 @@ typedef struct SporeVoxels {
  * cubes. The winding number tells what lies inside. A cell is empty where less than a twentieth of it lies inside.
  * Loose cells that make up less than a hundredth of all cells are emptied too. Refuses a surface that is open or holds
  * no volume, a surface thinner than a cell, and more cells than a model may have. */
-bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, SporeError *error);
+bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, const SporeCancel *cancel,
+                         SporeError *error);
 void spore_voxels_clear(SporeVoxels *voxels);
 
 static inline size_t spore_voxels_count(const SporeVoxels *voxels) {

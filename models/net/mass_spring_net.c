@@ -86,12 +86,14 @@ static bool make_pairs(SporePairs pairs[KINDS], const SporeTriangleMesh *mesh) {
          spore_pairs_bending(&pairs[BENDING], mesh, &pairs[STRUCTURAL], &pairs[SHEAR]);
 }
 
-static bool make_springs(Net *net) {
+/* False: no memory, or cancelled. */
+static bool make_springs(Net *net, const SporeCancel *cancel) {
   SporePairs pairs[KINDS] = {0};
   bool made = make_pairs(pairs, &net->mesh);
   for (int kind = 0; kind < KINDS; kind++) {
-    made = made && spore_springs_create(&net->springs[kind], pairs[kind].keys, pairs[kind].count, net->rest,
-                                        net->base.block_count);
+    made = made && !spore_cancel_asked(cancel) &&
+           spore_springs_create(&net->springs[kind], pairs[kind].keys, pairs[kind].count, net->rest,
+                                net->base.block_count);
     spore_pairs_clear(&pairs[kind]);
   }
   return made;
@@ -113,13 +115,14 @@ static bool find_blocks(Net *net) {
   return true;
 }
 
-static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fields, SporeError *error) {
+static bool build(Net *net, const SporeGeometry *geometry, const NetFields *fields, SporeError *error) {
+  const SporeTriangleMesh *mesh = geometry->surface;
   if (!spore_model_init(&net->base, &spore_mass_spring_net, mesh->vertex_count, false, error) ||
       !spore_triangle_mesh_copy(&net->mesh, mesh, error))
     return false;
   net->rest = net->mesh.vertices;
   if (!set_masses(net, fields, error)) return false;
-  if (!make_springs(net) || !find_blocks(net)) return no_memory(error);
+  if (!make_springs(net, geometry->cancel) || !find_blocks(net)) return no_memory(error);
   tune(net, fields);
   net->tear_strain = fields->tear_strain;
   net->base.tears = fields->tear_strain > 0;
@@ -127,14 +130,13 @@ static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fiel
 }
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
-  const SporeTriangleMesh *mesh = geometry->surface;
-  if (!spore_nodal_check_surface(mesh, error)) return NULL;
+  if (!spore_nodal_check_surface(geometry->surface, error)) return NULL;
   Net *net = SPORE_NEW(Net);
   if (!net) {
     no_memory(error);
     return NULL;
   }
-  if (build(net, mesh, fields, error)) return &net->base;
+  if (build(net, geometry, fields, error)) return &net->base;
   destroy(&net->base);
   return NULL;
 }

@@ -16,6 +16,7 @@ static bool no_memory(SporeError *error) {
 
 typedef struct Fill {
   const SporeBvh *bvh;
+  const SporeCancel *cancel;
   double cell; /* m */
   double lower[3];
   size_t cells[3];
@@ -53,12 +54,12 @@ static bool fill_lattice(Fill *fill) {
   for (size_t x = 0; x < fill->cells[0]; x++)
     for (size_t y = 0; y < fill->cells[1]; y++)
       for (int i = 0; i < 4; i++)
-        if (!fill_row(fill, x, y, parts[i])) return false;
+        if (spore_cancel_asked(fill->cancel) || !fill_row(fill, x, y, parts[i])) return false;
   return true;
 }
 
 /* The lattice in the middle of the surface's bounds, with a layer of places there along the axes of `phase`. False: no
- * memory. */
+ * memory, or cancelled. */
 static bool fill_phase(Fill *fill, const SporeMeshReport *report, unsigned phase) {
   assert(phase < 8);
   fill->count = 0;
@@ -85,15 +86,15 @@ static bool fill_best(Fill *fill, const SporeMeshReport *report, size_t wanted) 
   return fill_phase(fill, report, best);
 }
 
-bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, double **points, size_t *count,
-                         double *volume, SporeError *error) {
+bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, const SporeCancel *cancel, double **points,
+                         size_t *count, double *volume, SporeError *error) {
   assert(wanted > 0);
   SporeMeshReport report;
   if (!spore_triangle_mesh_report_solid(surface, &report, error)) return false;
   *volume = fabs(report.volume);
   SporeBvh *bvh = spore_bvh_create(surface, error);
   if (!bvh) return false;
-  Fill fill = {.bvh = bvh, .cell = cbrt(4 * *volume / (double)wanted)};
+  Fill fill = {.bvh = bvh, .cancel = cancel, .cell = cbrt(4 * *volume / (double)wanted)};
   bool made = fill_best(&fill, &report, wanted);
   spore_bvh_free(bvh);
   if (made && fill.count >= 4) {

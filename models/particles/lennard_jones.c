@@ -177,7 +177,9 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
   const FluidFields *fields = data;
   double *points, volume;
   size_t count;
-  if (!spore_particle_fill(geometry->surface, (size_t)fields->particles, &points, &count, &volume, error)) return NULL;
+  if (!spore_particle_fill(geometry->surface, (size_t)fields->particles, geometry->cancel, &points, &count, &volume,
+                           error))
+    return NULL;
   Fluid *fluid = SPORE_NEW(Fluid);
   if (!fluid) {
     spore_free(points);

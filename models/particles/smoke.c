@@ -75,7 +75,9 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
   const SmokeFields *fields = data;
   double *points, volume;
   size_t count;
-  if (!spore_particle_fill(geometry->surface, (size_t)fields->particles, &points, &count, &volume, error)) return NULL;
+  if (!spore_particle_fill(geometry->surface, (size_t)fields->particles, geometry->cancel, &points, &count, &volume,
+                           error))
+    return NULL;
   Smoke *smoke = SPORE_NEW(Smoke);
   if (!smoke || !spore_model_init(&smoke->base, &spore_smoke, count, false, error)) {
     spore_free(points);

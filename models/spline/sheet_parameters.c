@@ -52,10 +52,11 @@ static bool make_means(Means *means, const SporeSheetOutline *outline) {
   return true;
 }
 
-/* Successive over-relaxation: each vertex to the mean of its neighbours, and a little further. */
-static void settle(const Means *means, size_t vertex_count, double *parameters) {
+/* Successive over-relaxation: each vertex to the mean of its neighbours, and a little further. False: cancelled. */
+static bool settle(const Means *means, size_t vertex_count, double *parameters, const SporeCancel *cancel) {
   double further = 2 / (1 + sin(M_PI / sqrt((double)vertex_count))), change = 1;
   for (int sweep = 0; sweep < SWEEPS && change > SETTLED; sweep++) {
+    if (spore_cancel_asked(cancel)) return false;
     change = 0;
     for (size_t i = 0; i < vertex_count; i++) {
       double mean[2] = {0, 0}, sum = 0;
@@ -72,6 +73,7 @@ static void settle(const Means *means, size_t vertex_count, double *parameters) 
       }
     }
   }
+  return true;
 }
 
 /* Whether every triangle has kept its side. */
@@ -87,10 +89,9 @@ static bool unfolded(const SporeTriangleMesh *mesh, const double *parameters) {
   return positive != negative;
 }
 
-static bool set_inside(const SporeSheetOutline *outline, double *parameters) {
+static bool set_inside(const SporeSheetOutline *outline, double *parameters, const SporeCancel *cancel) {
   Means means = {0};
-  bool made = make_means(&means, outline);
-  if (made) settle(&means, outline->mesh->vertex_count, parameters);
+  bool made = make_means(&means, outline) && settle(&means, outline->mesh->vertex_count, parameters, cancel);
   spore_free(means.start);
   spore_free(means.neighbour);
   spore_free(means.weight);
@@ -98,9 +99,10 @@ static bool set_inside(const SporeSheetOutline *outline, double *parameters) {
   return made;
 }
 
-static bool set_parameters(SporeSheetOutline *outline, double *parameters, SporeError *error) {
+static bool set_parameters(SporeSheetOutline *outline, double *parameters, const SporeCancel *cancel,
+                           SporeError *error) {
   if (!spore_sheet_outline_square(outline, parameters, error)) return false;
-  if (!set_inside(outline, parameters))
+  if (!set_inside(outline, parameters, cancel))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a spline"));
   if (unfolded(outline->mesh, parameters)) return true;
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
@@ -108,9 +110,10 @@ static bool set_parameters(SporeSheetOutline *outline, double *parameters, Spore
                            "look one way; straighten the mesh or use a mass-spring net"));
 }
 
-bool spore_sheet_parameters(const SporeTriangleMesh *mesh, double *parameters, SporeError *error) {
+bool spore_sheet_parameters(const SporeTriangleMesh *mesh, double *parameters, const SporeCancel *cancel,
+                            SporeError *error) {
   SporeSheetOutline outline;
-  bool good = spore_sheet_outline_create(&outline, mesh, error) && set_parameters(&outline, parameters, error);
+  bool good = spore_sheet_outline_create(&outline, mesh, error) && set_parameters(&outline, parameters, cancel, error);
   spore_sheet_outline_clear(&outline);
   return good;
 }

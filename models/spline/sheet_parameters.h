@@ -2,6 +2,7 @@
 #ifndef SPORE_MODELS_SPLINE_SHEET_PARAMETERS_H
 #define SPORE_MODELS_SPLINE_SHEET_PARAMETERS_H
 
+#include "core/base/cancel.h"
 #include "core/mesh/mesh.h"
 
 /* u and v from 0 to 1 for each vertex (vertex_count x 2; those of no triangle stay 0). The sheet's outline becomes the
@@ -9,7 +10,9 @@
  * seen across the plane nearest to the sheet, u along the longer side; between corners by length. Inside each vertex
  * lies at the mean of its neighbours by mean value weights (Floater 2003), which are positive: no triangle folds over,
  * and a flat rectangle keeps its proportions. Neither the order of vertices nor that of triangles matters. Refused: a
- * mesh that is closed, in several pieces, has holes, branches, triangles without area, or no four corners. */
-bool spore_sheet_parameters(const SporeTriangleMesh *mesh, double *parameters, SporeError *error);
+ * mesh that is closed, in several pieces, has holes, branches, triangles without area, or no four corners. False: also
+ * where it was cancelled; there is no error then. */
+bool spore_sheet_parameters(const SporeTriangleMesh *mesh, double *parameters, const SporeCancel *cancel,
+                            SporeError *error);
 
 #endif

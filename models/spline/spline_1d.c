@@ -166,15 +166,15 @@ static bool follow(const SporeModel *model, SporeSplineKnots knots, SporeMapping
   return control;
 }
 
-static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *fields, SporeError *error) {
+static bool build(Spline1d *body, const SporeGeometry *geometry, const SplineFields *fields, SporeError *error) {
   SporeSplineDensity density = {.count = (size_t)fields->control_points, .most_bend = fields->most_bend};
   SporeSplineSection section = {.density = fields->density,
                                 .wall_thickness = fields->wall_thickness,
                                 .straight_at_rest = fields->straight_at_rest};
   size_t most = (size_t)fields->maximum_control_points;
   density.most = density.most_bend > 0 && most > density.count ? most : density.count;
-  if (!spore_spline_line_init(&body->line, curve, &density, &section, error) ||
-      !make_twist(body, &section, fields, error))
+  if (!spore_spline_line_init(&body->line, geometry->curve, &density, &section, error) ||
+      spore_cancel_asked(geometry->cancel) || !make_twist(body, &section, fields, error))
     return false;
   size_t count = body->line.control_count, room = density.most;
   bool twisted = body->twist.span_count > 0;
@@ -198,7 +198,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->curve, fields, error)) return &body->base;
+  if (build(body, geometry, fields, error)) return &body->base;
   destroy(&body->base);
   return NULL;
 }

@@ -62,10 +62,11 @@ static void tune(Spline2d *sheet, const SheetFields *fields) {
   sheet->patch.viscous = fields->damping;
 }
 
-static bool fit(Spline2d *sheet, const SporeTriangleMesh *mesh, SporeError *error) {
+static bool fit(Spline2d *sheet, const SporeGeometry *geometry, SporeError *error) {
+  const SporeTriangleMesh *mesh = geometry->surface;
   double *at = SPORE_NEW_ARRAY(double, 2 * mesh->vertex_count);
   if (!at) return no_memory(error);
-  bool good = spore_sheet_parameters(mesh, at, error);
+  bool good = spore_sheet_parameters(mesh, at, geometry->cancel, error);
   if (good && !spore_patch_fit(mesh, at, sheet->patch.span_u, sheet->patch.span_v, sheet->rest))
     good = no_memory(error);
   spore_free(at);
@@ -87,26 +88,25 @@ static bool set_points(Spline2d *sheet, const SheetFields *fields, SporeError *e
   return spore_nodal_check_mass(&sheet->base, "triangle", error);
 }
 
-static bool build(Spline2d *sheet, const SporeTriangleMesh *mesh, const SheetFields *fields, SporeError *error) {
+static bool build(Spline2d *sheet, const SporeGeometry *geometry, const SheetFields *fields, SporeError *error) {
   size_t nodes_u = (size_t)fields->control_points_u, nodes_v = (size_t)fields->control_points_v;
   sheet->patch.thickness = fields->thickness, sheet->patch.poisson = fields->poisson_ratio;
   if (!spore_model_init(&sheet->base, &spore_spline_2d, nodes_u * nodes_v, false, error)) return false;
   sheet->rest = SPORE_NEW_ARRAY(double, 3 * nodes_u * nodes_v);
   if (!sheet->rest || !spore_patch_allocate(&sheet->patch, nodes_u - 3, nodes_v - 3)) return no_memory(error);
-  if (!fit(sheet, mesh, error) || !set_points(sheet, fields, error)) return false;
+  if (!fit(sheet, geometry, error) || !set_points(sheet, fields, error)) return false;
   tune(sheet, fields);
   return true;
 }
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
-  const SporeTriangleMesh *mesh = geometry->surface;
-  if (!spore_nodal_check_surface(mesh, error)) return NULL;
+  if (!spore_nodal_check_surface(geometry->surface, error)) return NULL;
   Spline2d *sheet = SPORE_NEW(Spline2d);
   if (!sheet) {
     no_memory(error);
     return NULL;
   }
-  if (build(sheet, mesh, fields, error)) return &sheet->base;
+  if (build(sheet, geometry, fields, error)) return &sheet->base;
   destroy(&sheet->base);
   return NULL;
 }

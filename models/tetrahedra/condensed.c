@@ -103,11 +103,12 @@ static void move_one(Condensation *work, uint32_t j, int axis) {
 }
 
 /* Column by column. shares: for each vertex and node, how much the inner vertex follows the node; the shares of a
- * vertex add up to 1. */
-static void condense(SporeLinearSolid *body, Condensation *work, double *shares) {
+ * vertex add up to 1. False: cancelled. */
+static bool condense(SporeLinearSolid *body, Condensation *work, double *shares, const SporeCancel *cancel) {
   assert(body->stiffness.block_count == body->surface.vertex_count);
   size_t count = body->surface.vertex_count;
-  for (uint32_t j = 0; j < count; j++)
+  for (uint32_t j = 0; j < count; j++) {
+    if (spore_cancel_asked(cancel)) return false;
     for (int axis = 0; axis < 3; axis++) {
       move_one(work, j, axis);
       for (size_t i = 0; i < work->full.block_count; i++)
@@ -117,6 +118,8 @@ static void condense(SporeLinearSolid *body, Condensation *work, double *shares)
           body->stiffness.values[9 * (i * count + j) + 3 * k + (size_t)axis] =
               work->pull[3 * (size_t)work->vertex[i] + k];
     }
+  }
+  return true;
 }
 
 /* The mass of an inner vertex goes to the nodes that the vertex follows, by their shares. A few shares are negative and
@@ -145,14 +148,15 @@ static void make_symmetric(SporeBlockMatrix *matrix) {
       }
 }
 
-static bool eliminate(SporeLinearSolid *body, Condensation *work, const SporeLinearFields *fields, SporeError *error) {
+static bool eliminate(SporeLinearSolid *body, Condensation *work, const SporeLinearFields *fields,
+                      const SporeCancel *cancel, SporeError *error) {
   size_t n = body->nodes.count;
   double *mass = SPORE_NEW_ARRAY(double, n), *shares = SPORE_NEW_ARRAY(double, n * body->surface.vertex_count);
   work->moved = SPORE_NEW_ARRAY(double, 3 * n);
   work->pull = SPORE_NEW_ARRAY(double, 3 * n);
   bool made = mass && shares && work->moved && work->pull &&
               spore_linear_stiffness(&body->nodes, fields->poisson_ratio, &work->full) &&
-              spore_block_cholesky_create(&work->inner, &work->full, SPORE_FACTOR_AUTOMATIC, HUGE_VAL, NULL) &&
+              spore_block_cholesky_create(&work->inner, &work->full, SPORE_FACTOR_AUTOMATIC, HUGE_VAL, cancel) &&
               create_dense(body);
   if (!made) spore_linear_solid_no_memory(error);
   if (made && !spore_block_cholesky_factorise(&work->inner, &work->full, NULL, work->held, false))
@@ -161,9 +165,8 @@ static bool eliminate(SporeLinearSolid *body, Condensation *work, const SporeLin
                              "generate them again"));
   if (made) {
     spore_tetrahedron_nodes_add_mass(&body->nodes, fields->density, mass);
-    condense(body, work, shares);
-    share_masses(body, work, shares, mass);
-    make_symmetric(&body->stiffness);
+    made = condense(body, work, shares, cancel);
+    if (made) share_masses(body, work, shares, mass), make_symmetric(&body->stiffness);
   }
   spore_free(mass);
   spore_free(shares);
@@ -178,7 +181,7 @@ static bool build(SporeLinearSolid *body, const SporeGeometry *geometry, const S
   if (!made) spore_linear_solid_no_memory(error);
   made = made && check_size(body, error) &&
          spore_model_init(&body->base, &spore_condensed_tetrahedra, body->surface.vertex_count, false, error) &&
-         eliminate(body, &work, fields, error);
+         eliminate(body, &work, fields, geometry->cancel, error);
   if (made && !spore_linear_solid_finish(body, fields)) made = spore_linear_solid_no_memory(error);
   condensation_clear(&work);
   return made;

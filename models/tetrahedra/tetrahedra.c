@@ -118,6 +118,7 @@ static bool build(Body *body, const SporeModelType *type, const SporeGeometry *g
   if (!spore_model_init(&body->base, type, body->nodes.count, false, error)) return false;
   spore_tetrahedron_nodes_add_mass(&body->nodes, fields->density, body->base.block_mass);
   if (!spore_nodal_check_mass(&body->base, "tetrahedron", error)) return false;
+  if (spore_cancel_asked(geometry->cancel)) return false;
   if (!spore_tetrahedra_create(&body->tetrahedra, &body->nodes) || !find_blocks(body)) return no_memory(error);
   body->density = fields->density;
   body->cut_reserve = fields->cut_reserve;

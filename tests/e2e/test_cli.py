@@ -1685,6 +1685,25 @@ def interruption_ends_a_long_step():
 
 
 @check
+def interruption_leaves_no_torn_picture():
+    """SIGTERM while a large picture is written leaves the old picture or the new one, whole, and nothing beside it."""
+    if "render" not in FEATURES:
+        raise Skip("built without the renderer")
+    scene, picture = soft_ball(), WORK / "torn" / "large.png"
+    picture.parent.mkdir(exist_ok=True)
+    for _ in range(3):
+        picture.write_bytes(b"old")
+        process = subprocess.Popen([SPORE, "render", scene, "--size", "3000x3000", "-o", picture], cwd=WORK, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not temporaries(picture.parent):
+            pass
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(60) in (0, 130), process.returncode
+        content = picture.read_bytes()
+        assert content == b"old" or content.endswith(b"IEND\xaeB`\x82") and content.startswith(b"\x89PNG"), len(content)
+        assert os.listdir(picture.parent) == ["large.png"], os.listdir(picture.parent)
+
+
+@check
 def stability_pushes_a_scene():
     """stability gives each case a verdict, each body its largest step, a map, and what it left out; a case that failed is status 1."""
     answer = report("stability", SCENES / "table1-rigid.spore", "--quick", "--svg", "map.svg", "--time", 0.2)

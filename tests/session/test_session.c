@@ -321,6 +321,38 @@ static void test_numbers_thin_out(Fixture *fixture, gconstpointer data) {
   spore_session_free(session);
 }
 
+/* A sheet of 10,000 points whose balance takes minutes: a step that outlasts what waits for it. */
+static const char long_text[] =
+    "<spore version=\"1.0\"><solver integrator=\"static\" linear=\"conjugate_gradients\"/>"
+    "<assets><mesh name=\"sheet\" file=\"sheet.off\"/></assets><bodies><body name=\"sheet\">"
+    "<mechanical geometry=\"sheet\"><spline_2d control_points_u=\"100\" control_points_v=\"100\"/></mechanical>"
+    "</body></bodies><links><pin name=\"corner\" body=\"sheet\" point=\"0 0 0\" radius=\"0.01\"/></links></spore>";
+
+/* Neither a step nor a pause waits for the end of a long step; a reset and an end do not let it go on. */
+static void test_long_step(Fixture *fixture, gconstpointer data) {
+  g_autoptr(GError) error = NULL;
+  SporeDocument *document = spore_scene_parse(fixture->schema, NULL, long_text, strlen(long_text), &error);
+  g_assert_no_error(error);
+  put(document, "sheet.off", g_strdup("OFF\n4 2 0\n0 0 0\n.1 0 0\n.1 .1 0\n0 .1 0\n3 0 1 2\n3 0 2 3\n"));
+  SporeSession *session = spore_session_new(document, 1, NULL, &error);
+  g_assert_no_error(error);
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  g_assert_true(spore_session_try_pause(session));
+  g_assert_false(spore_session_try_step(session));
+  g_assert_false(spore_session_stands(session));
+  spore_session_reset(session);
+  g_assert_true(spore_session_stands(session));
+  g_assert_false(spore_world_cancelled(world));
+  g_assert_false(spore_session_try_step(session));
+  g_assert_false(spore_session_try_pause(session));
+  spore_session_give_up(session);
+  g_assert_true(spore_session_stands(session));
+  g_assert_true(spore_world_cancelled(world));
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
+  spore_session_free(session);
+  spore_document_free(document);
+}
+
 static void test_refused_scene(Fixture *fixture, gconstpointer data) {
   g_autoptr(GError) error = NULL;
   SporeObject *probe = spore_document_by_path(fixture->document, "bodies/probe");
@@ -349,6 +381,7 @@ int main(int argc, char **argv) {
       {"carry-over", test_carry_over},
       {"numbers", test_numbers},
       {"numbers-thin-out", test_numbers_thin_out},
+      {"long-step", test_long_step},
       {"refused-scene", test_refused_scene},
   };
   g_test_init(&argc, &argv, NULL);

@@ -120,6 +120,62 @@ static void test_making(void) {
   }
 }
 
+/* A kind of model that takes long to make: a smaller one, by the geometry that it needs. */
+typedef struct Making {
+  const SporeModelType *type;
+  unsigned least; /* questions: rows of cells, columns of a matrix, sweeps */
+  const char *size_name, *other_name;
+  double size;
+} Making;
+
+static SporeModel *make_model(const Making *making, const SporeCancel *cancel, SporeError *error) {
+  SporeTriangleMesh sheet, box;
+  SporeTetrahedralMesh block;
+  shape_sheet(&sheet, 17, 17, 0.01, TRUE);
+  shape_block_surface(&box, 1, 1, 1, spore_vec3(0.06, 0.05, 0.05));
+  shape_block(&block, 4, 4, 4, spore_vec3(0.06, 0.06, 0.06));
+  void *fields = making->size_name
+                     ? rig_fields(making->type, making->size_name, making->size, making->other_name, making->size, NULL)
+                     : rig_fields(making->type, NULL);
+  const SporeGeometry geometry = {.surface = making->type->geometry == SPORE_GEOMETRY_SURFACE ? &sheet : &box,
+                                  .tetrahedra = &block,
+                                  .cancel = cancel};
+  SporeModel *model = spore_model_create(making->type, &geometry, fields, error);
+  spore_free(fields);
+  spore_triangle_mesh_clear(&sheet);
+  spore_triangle_mesh_clear(&box);
+  spore_tetrahedral_mesh_clear(&block);
+  return model;
+}
+
+/* A model asks while it is made, and gives up at whatever question the answer is yes. */
+static void test_models(void) {
+  static const Making makings[] = {{&spore_spline_2d, 40, "control_points_u", "control_points_v", 16},
+                                   {&spore_condensed_tetrahedra, 98},
+                                   {&spore_finite_differences, 280, "cells", NULL, 20},
+                                   {&spore_lennard_jones, 256, "particles", NULL, 2000},
+                                   {&spore_smoke, 64, "particles", NULL, 500},
+                                   {&spore_mass_spring_net, 3},
+                                   {&spore_corotational_tetrahedra, 1}};
+  for (size_t i = 0; i < G_N_ELEMENTS(makings); i++) {
+    Asker asker = {0, G_MAXUINT};
+    const SporeCancel cancel = {answer, &asker};
+    SporeError error = SPORE_ERROR_INIT;
+    SporeModel *model = make_model(&makings[i], &cancel, &error);
+    if (!model) g_error("%s", error.message);
+    model->type->destroy(model);
+    unsigned asked = asker.asked;
+    g_test_message("%s: asked %u times while the model is made", makings[i].type->name, asked);
+    g_assert_cmpuint(asked, >, makings[i].least);
+    for (unsigned part = 0; part <= 8; part++) {
+      asker = (Asker){0, 1 + part * (asked - 1) / 8};
+      g_assert_null(make_model(&makings[i], &cancel, &error));
+      g_assert_cmpint(error.code, ==, SPORE_ERROR_CANCELLED);
+      g_assert_cmpuint(asker.asked, <=, asker.at + QUESTIONS_ON_THE_WAY_OUT);
+    }
+  }
+}
+
 /* A helix, so that no place is like another, whose radius grows with the length. */
 static SporeCurve helix(size_t count) {
   SporeCurve curve;
@@ -188,6 +244,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/largest/cancelled-step", test_step);
   g_test_add_func("/largest/cancelled-making", test_making);
+  g_test_add_func("/largest/cancelled-models", test_models);
   g_test_add_func("/largest/curve", test_curve);
   g_test_add_func("/largest/spheres", test_spheres);
   return g_test_run();

@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -1138,15 +1139,20 @@ def cancel_leaves_nothing():
         ui.wait(lambda: not editor.row("ball"), "the import to be the last step")
 
 
-@check
-def recovery_after_a_crash():
-    """unsaved work of a killed editor is offered and comes back."""
-    state = folder("crash")
+def abort(editor):
+    """As GLib does where it gets no memory."""
+    editor.process.send_signal(signal.SIGABRT)
+    assert editor.process.wait(ui.PATIENCE_S) == 3
+
+
+def crash_and_recover(end):
+    """The work of an editor that ends like that comes back."""
+    state = tempfile.mkdtemp(dir=folder("state"))
     with start(state=state) as editor:
         make_soft_ball(editor)
         editor.act("generate-spheres", "u", 10)  # a job keeps the work before it begins
         time.sleep(0.5)
-        editor.kill()
+        end(editor)
     with start(state=state) as editor:
         editor.find("label", "ended unexpectedly")
         editor.press(editor.find("push button", "^Recover$"))
@@ -1157,6 +1163,67 @@ def recovery_after_a_crash():
     with start(state=state) as editor:
         editor.find("label", "Begin with an organ")
         assert not editor.look("label", "ended unexpectedly")
+
+
+@check
+def recovery_after_a_crash():
+    """unsaved work of a killed editor is offered and comes back."""
+    crash_and_recover(ui.Editor.kill)
+
+
+@check
+def recovery_after_an_abort():
+    """an editor that GLib aborts for want of memory ends with status 3; its unsaved work is offered and comes back."""
+    crash_and_recover(abort)
+
+
+def long_step():
+    """A scene that is made at once and whose first step takes minutes: the balance of 10,000 control points."""
+    path = folder("scenes") / "long" / "scene.spore"
+    path.parent.mkdir(exist_ok=True)
+    across, points = 9, [(x / 100, y / 100) for y in range(9) for x in range(9)]
+    corners = [across * y + x for y in range(across - 1) for x in range(across - 1)]
+    triangles = [t for c in corners for t in ((c, c + 1, c + across + 1), (c, c + across + 1, c + across))]
+    (path.parent / "sheet.off").write_bytes(shapes.off([(x, y, 0) for x, y in points], triangles))
+    path.write_text("""<spore version="1.0">
+  <solver integrator="static" linear="conjugate_gradients"/>
+  <assets>
+    <mesh name="sheet" file="sheet.off"/>
+  </assets>
+  <bodies>
+    <body name="sheet">
+      <mechanical geometry="sheet">
+        <spline_2d control_points_u="100" control_points_v="100"/>
+      </mechanical>
+    </body>
+  </bodies>
+  <links>
+    <pin name="corner" body="sheet" point="0 0 0" radius="0.01"/>
+  </links>
+</spore>
+""")
+    return path
+
+
+def processor_s(process):
+    """Processor time that it took so far."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(") ", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+@check
+def ends_within_a_long_step():
+    """the window's close and SIGTERM end an editor that is in the middle of a step of minutes."""
+    for end, status in (lambda editor: editor.act("close"), 0), (lambda editor: editor.process.terminate(), -signal.SIGTERM):
+        with start(long_step()) as editor:
+            ui.wait(lambda: editor.row("sheet"), "the scene")
+            editor.act("step")
+            begun = processor_s(editor.process)
+            ui.wait(lambda: processor_s(editor.process) > begun + 1, "the step to be well under way")
+            assert editor.time_s() == 0
+            end(editor)
+            ui.wait(lambda: editor.process.poll() is not None, "the editor to end")
+            assert editor.process.returncode == status, editor.process.returncode
 
 
 @check

@@ -19,6 +19,8 @@
 #define MOST_ROWS 4096
 /* Steps between two looks at what was not solved. */
 #define STEPS_A_LOOK 16
+/* How long the window waits for a step that may take minutes. */
+#define PATIENCE_US (G_USEC_PER_SEC / 10)
 
 typedef struct {
   double time_s;
@@ -52,7 +54,7 @@ struct SporeSession {
   guint recorder_count;
   GThread *thread;
   SporeCancel cancel;
-  gint ending; /* read by the world while a step is under way; atomic */
+  gint ending; /* the step under way is to end; read by the world meanwhile; atomic */
 
   /* Guarded by the mutex, which no thread holds during a step. */
   GMutex mutex;
@@ -286,6 +288,7 @@ static void take_paced_step(SporeSession *session) {
 }
 
 static void take_reset(SporeSession *session) {
+  g_atomic_int_set(&session->ending, 0);
   spore_world_reset(session->simulation->world);
   for (guint i = 0; i < session->recorder_count; i++) {
     Recorder *recorder = &session->recorders[i];
@@ -331,6 +334,17 @@ static void wait_standing(SporeSession *session) {
   while (!session->standing) g_cond_wait(&session->stood, &session->mutex);
 }
 
+static gboolean wait_patiently(SporeSession *session) {
+  gint64 end = g_get_monotonic_time() + PATIENCE_US;
+  session->standing = FALSE;
+  g_cond_signal(&session->wake);
+  while (!session->standing && g_cond_wait_until(&session->stood, &session->mutex, end)) continue;
+  return session->standing;
+}
+
+/* A step under way ends with the state before it, and only a reset makes the world go on. */
+static void end_step(SporeSession *session) { g_atomic_int_set(&session->ending, 1); }
+
 static bool is_ending(void *data) {
   SporeSession *session = data;
   return g_atomic_int_get(&session->ending) != 0;
@@ -368,7 +382,7 @@ SporeSession *spore_session_new(SporeDocument *document, int threads, const Spor
 
 void spore_session_free(SporeSession *session) {
   if (!session) return;
-  g_atomic_int_set(&session->ending, 1); /* a step under way ends soon */
+  end_step(session);
   if (session->thread) {
     g_mutex_lock(&session->mutex);
     session->quit = TRUE;
@@ -411,6 +425,27 @@ void spore_session_pause(SporeSession *session) {
   g_mutex_unlock(&session->mutex);
 }
 
+gboolean spore_session_try_pause(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  session->playing = FALSE;
+  gboolean stands = wait_patiently(session);
+  g_mutex_unlock(&session->mutex);
+  return stands;
+}
+
+void spore_session_give_up(SporeSession *session) {
+  end_step(session);
+  spore_session_pause(session);
+}
+
+gboolean spore_session_stands(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  gboolean stands = session->standing;
+  g_mutex_unlock(&locked->mutex);
+  return stands;
+}
+
 gboolean spore_session_is_playing(const SporeSession *session) {
   SporeSession *locked = (SporeSession *)session;
   g_mutex_lock(&locked->mutex);
@@ -428,7 +463,19 @@ void spore_session_step(SporeSession *session, guint steps) {
   g_mutex_unlock(&session->mutex);
 }
 
+gboolean spore_session_try_step(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  gboolean stands = FALSE;
+  if (!session->playing) {
+    session->steps = 1;
+    stands = wait_patiently(session);
+  }
+  g_mutex_unlock(&session->mutex);
+  return stands;
+}
+
 void spore_session_reset(SporeSession *session) {
+  end_step(session);
   g_mutex_lock(&session->mutex);
   gboolean playing = session->playing;
   session->playing = FALSE;
@@ -534,7 +581,8 @@ gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *poi
   g_mutex_lock(&session->mutex);
   gboolean playing = session->playing;
   session->playing = FALSE;
-  session->reset = spore_session_snapshot(session)->step > 0;
+  session->reset = !session->standing || spore_session_snapshot(session)->step > 0;
+  if (session->reset) end_step(session);
   wait_standing(session);
   SporeMeasurement *measurement = new_measurement(session, points, count, &fault);
   gboolean taken = measurement ? take_measurement(session, measurement, error) : spore_error_propagate(&fault, error);

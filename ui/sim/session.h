@@ -15,9 +15,17 @@ const SporeSimulation *spore_session_simulation(const SporeSession *session);
 
 void spore_session_play(SporeSession *session);
 void spore_session_pause(SporeSession *session); /* returns when the thread has stopped */
+/* The same, but returns soon. FALSE: a step is still under way. */
+gboolean spore_session_try_pause(SporeSession *session);
+/* The same, where the session is to be freed next: ends a step under way, whose state is then the one before it. */
+void spore_session_give_up(SporeSession *session);
+gboolean spore_session_stands(const SporeSession *session); /* paused, and no step is under way */
 gboolean spore_session_is_playing(const SporeSession *session);
 void spore_session_step(SporeSession *session, guint steps); /* while paused; returns when done */
-void spore_session_reset(SporeSession *session);             /* time 0, paused or playing as before */
+/* One step, but returns soon. FALSE: the step is still under way. */
+gboolean spore_session_try_step(SporeSession *session);
+/* Time 0, paused or playing as before; ends a step under way. */
+void spore_session_reset(SporeSession *session);
 /* Copies the state of bodies that both sessions have, by name, into a session that is not running. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */

@@ -7,6 +7,7 @@ struct _SporePlayer {
   SporeSession *session;
   double speed;
   guint rebuild;       /* idle source */
+  guint watch;         /* timeout source, while a step outlasts the wait for it */
   gboolean from_start; /* the rebuild starts at time 0 and copies no state */
 };
 
@@ -17,8 +18,26 @@ static guint signals[SIGNAL_COUNT];
 
 static int threads(void) { return (int)CLAMP(g_get_num_processors() / 2, 1, 8); }
 
+/* Between two looks at a long step, ms. */
+#define LOOK_MS 50
+
+static gboolean look(gpointer data) {
+  SporePlayer *self = data;
+  if (!spore_session_stands(self->session) && !spore_session_is_playing(self->session)) return G_SOURCE_CONTINUE;
+  self->watch = 0;
+  g_signal_emit(self, signals[STATE_CHANGED], 0);
+  return G_SOURCE_REMOVE;
+}
+
+/* Tells that the state changed, and again when a step that is still under way has ended. */
+static void tell(SporePlayer *self, gboolean stands) {
+  if (!stands && !self->watch) self->watch = g_timeout_add(LOOK_MS, look, self);
+  g_signal_emit(self, signals[STATE_CHANGED], 0);
+}
+
 static void replace_session(SporePlayer *self, SporeSession *session) {
   g_clear_handle_id(&self->rebuild, g_source_remove);
+  g_clear_handle_id(&self->watch, g_source_remove);
   SporeSession *old = self->session;
   self->session = session;
   g_signal_emit(self, signals[REPLACED], 0);
@@ -50,7 +69,7 @@ static gboolean rebuild(gpointer data) {
   SporePlayer *self = data;
   self->rebuild = 0;
   gboolean playing = spore_session_is_playing(self->session);
-  spore_session_pause(self->session);
+  spore_session_give_up(self->session);
   SporeSession *session = compile(self);
   if (session && !self->from_start) spore_session_carry_over(session, self->session);
   self->from_start = FALSE;
@@ -83,6 +102,7 @@ static void document_changed(SporePlayer *self, int kind, guint id, guint proper
 static void spore_player_dispose(GObject *object) {
   SporePlayer *self = SPORE_PLAYER(object);
   g_clear_handle_id(&self->rebuild, g_source_remove);
+  g_clear_handle_id(&self->watch, g_source_remove);
   g_clear_pointer(&self->session, spore_session_free);
   g_clear_object(&self->document);
   G_OBJECT_CLASS(spore_player_parent_class)->dispose(object);
@@ -117,16 +137,12 @@ void spore_player_play(SporePlayer *self) {
   g_signal_emit(self, signals[STATE_CHANGED], 0);
 }
 
-void spore_player_pause(SporePlayer *self) {
-  if (self->session) spore_session_pause(self->session);
-  g_signal_emit(self, signals[STATE_CHANGED], 0);
-}
+void spore_player_pause(SporePlayer *self) { tell(self, !self->session || spore_session_try_pause(self->session)); }
 
 void spore_player_step(SporePlayer *self) {
   if (!ensure_session(self)) return;
-  if (spore_session_is_playing(self->session)) spore_session_pause(self->session);
-  spore_session_step(self->session, 1);
-  g_signal_emit(self, signals[STATE_CHANGED], 0);
+  tell(self, (!spore_session_is_playing(self->session) || spore_session_try_pause(self->session)) &&
+                 spore_session_try_step(self->session));
 }
 
 void spore_player_reset(SporePlayer *self) {
