@@ -5,6 +5,8 @@
 #include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
 
+#define STUDY_HEIGHT 350 /* pixels of the bottom, for a work-precision plot */
+
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
 
 /* History and objects. */
@@ -237,6 +239,41 @@ static void marks_changed(SporeWindow *self) {
   spore_viewport_set_marks(SPORE_VIEWPORT(self->viewport), spore_inspector_get_marks(SPORE_INSPECTOR(self->inspector)));
 }
 
+/* The accuracy study. */
+
+static void act_measure_accuracy(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  spore_window_show_tab(self, self->accuracy);
+  spore_accuracy_measure(SPORE_ACCURACY(self->accuracy));
+}
+
+static void act_choose_point(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_accuracy_choose(SPORE_ACCURACY(((SporeWindow *)data)->accuracy), g_variant_get_uint32(parameter));
+}
+
+static void act_apply_point(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_accuracy_apply(SPORE_ACCURACY(self->accuracy), &error)) spore_window_failed(self, error);
+}
+
+/* Makes the bottom tall enough for a plot, where the view keeps its least height. Once: what the user makes of it after
+ * that stays. */
+static void make_room(SporeWindow *self) {
+  int least, height = gtk_widget_get_allocated_height(self->middle);
+  gtk_widget_get_preferred_height(self->viewport, &least, NULL);
+  int position = MAX(least, height - STUDY_HEIGHT);
+  if (!self->made_room && position < gtk_paned_get_position(GTK_PANED(self->middle)))
+    gtk_paned_set_position(GTK_PANED(self->middle), position);
+  self->made_room = TRUE;
+}
+
+static void study_changed(SporeWindow *self) {
+  if (!self->player) return; /* the document is being put into the window */
+  if (spore_editor_document_get_study(self->document)) make_room(self);
+  spore_window_update_actions(self);
+}
+
 void spore_window_add_scene_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"undo", act_undo},
@@ -271,11 +308,15 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-outliner", NULL, NULL, "true", change_panel},
       {"show-inspector", NULL, NULL, "true", change_panel},
       {"show-problems", NULL, NULL, "true", change_panel},
+      {"measure-accuracy", act_measure_accuracy},
+      {"choose-point", act_choose_point, "u"},
+      {"apply-point", act_apply_point},
       {"frame", act_frame},
       {"view", act_view, "s"},
       {"filter", act_filter},
       {"report", act_report, "s"},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  g_signal_connect_object(self->accuracy, "study-changed", G_CALLBACK(study_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->inspector, "marks-changed", G_CALLBACK(marks_changed), self, G_CONNECT_SWAPPED);
 }

@@ -77,6 +77,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
   spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
   spore_plan_set_document(SPORE_PLAN(self->plan), self->document);
+  spore_accuracy_set_document(SPORE_ACCURACY(self->accuracy), self->document);
   spore_plots_set_document(SPORE_PLOTS(self->plots), self->document, self->player);
   gtk_widget_hide(self->message_bar);
   player_changed(self);
@@ -288,6 +289,51 @@ static void act_save_plot_dialog(GSimpleAction *action, GVariant *parameter, gpo
   if (file) save_numbers(data, file);
 }
 
+/* The plan. */
+
+static void save_plan(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  if (spore_plan_save(SPORE_PLAN(self->plan), file, &error)) spore_window_log(self, _("Saved %s"), file);
+  else spore_window_failed(self, error);
+}
+
+static void act_save_plan(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_plan(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_plan_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save the plan"), _("_Save"),
+                                                     "*.csv", _("Tables (CSV)"), "plan.csv"),
+                                         ".csv");
+  if (file) save_plan(data, file);
+}
+
+/* The accuracy study. */
+
+static void save_study(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  if (spore_accuracy_save(SPORE_ACCURACY(self->accuracy), file, &error)) spore_window_log(self, _("Saved %s"), file);
+  else spore_window_failed(self, error);
+}
+
+static void act_save_study(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_study(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_study_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  static const char *const kinds[][2] = {
+      {".html", N_("Pages (HTML)")}, {".csv", N_("Tables (CSV)")}, {".svg", N_("Pictures (SVG)")}};
+  const char *suffix = g_variant_get_string(parameter, NULL);
+  for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
+    if (!g_str_equal(suffix, kinds[i][0])) continue;
+    g_autofree char *pattern = g_strconcat("*", suffix, NULL), *proposed = g_strconcat("accuracy", suffix, NULL);
+    g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save the study"),
+                                                       _("_Save"), pattern, _(kinds[i][1]), proposed),
+                                           suffix);
+    if (file) save_study(data, file);
+  }
+}
+
 static void act_close(GSimpleAction *action, GVariant *parameter, gpointer data) { gtk_window_close(data); }
 
 void spore_window_add_file_actions(SporeWindow *self) {
@@ -305,6 +351,10 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"save-numbers-dialog", act_save_numbers_dialog},
       {"save-plot", act_save_plot, "s"},
       {"save-plot-dialog", act_save_plot_dialog},
+      {"save-plan", act_save_plan, "s"},
+      {"save-plan-dialog", act_save_plan_dialog},
+      {"save-study", act_save_study, "s"},
+      {"save-study-dialog", act_save_study_dialog, "s"},
       {"close", act_close},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -6,6 +6,7 @@
 #include "ui/document/recovery.h"
 #include "ui/jobs/spore-generator.h"
 #include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-accuracy.h"
 #include "ui/panels/spore-generator-panel.h"
 #include "ui/panels/spore-inspector.h"
 #include "ui/panels/spore-outliner.h"
@@ -19,8 +20,8 @@
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
-  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *plots, *generator_panel, *bottom, *tabs, *log, *hint,
-      *job_box, *job_label, *job_bar, *renderer;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *generator_panel, *middle, *bottom,
+      *tabs, *log, *hint, *job_box, *job_label, *job_bar, *renderer;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */
@@ -39,6 +40,7 @@ struct _SporeWindow {
   guint look_serial;
   gint64 look_time;
   gboolean framed_apart; /* the view has moved to a candidate that belongs to no body */
+  gboolean made_room;    /* the bottom was made taller for a study */
   gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
 

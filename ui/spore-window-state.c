@@ -163,6 +163,15 @@ static void update_generator(SporeWindow *self, gboolean bodies) {
   set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
 }
 
+static void update_study(SporeWindow *self, gboolean bodies) {
+  gboolean studied = spore_editor_document_get_study(self->document) != NULL;
+  set_enabled(self, "measure-accuracy", bodies && !spore_accuracy_is_measuring(SPORE_ACCURACY(self->accuracy)));
+  set_enabled(self, "apply-point", spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)));
+  set_enabled(self, "choose-point", studied);
+  set_enabled(self, "save-study", studied);
+  set_enabled(self, "save-study-dialog", studied);
+}
+
 void spore_window_update_actions(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
@@ -199,4 +208,5 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "save-plot", session);
   set_enabled(self, "save-plot-dialog", session);
   set_enabled(self, "watch", bodies);
+  update_study(self, bodies);
 }

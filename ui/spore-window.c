@@ -110,9 +110,11 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, viewport);
   gtk_widget_class_bind_template_child(widget, SporeWindow, inspector);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plan);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, accuracy);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, middle);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
   gtk_widget_class_bind_template_child(widget, SporeWindow, tabs);
   gtk_widget_class_bind_template_child(widget, SporeWindow, log);
@@ -131,6 +133,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_VIEWPORT);
   g_type_ensure(SPORE_TYPE_INSPECTOR);
   g_type_ensure(SPORE_TYPE_PLAN);
+  g_type_ensure(SPORE_TYPE_ACCURACY);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
   g_type_ensure(SPORE_TYPE_PLOTS);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);

@@ -16,6 +16,9 @@
  *               apply-generated, cancel-job
  *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
  *               measure-mapping: of the selected body
+ *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in
+ *               .html, .csv or .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path],
+ *               save-plan-dialog
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,

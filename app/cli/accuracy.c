@@ -6,10 +6,10 @@
 #include "app/cli/accuracy_report.h"
 #include "app/cli/scene.h"
 #include "app/cli/svg_picture.h"
+#include "core/author/accuracy_methods.h"
 #include "core/author/accuracy_page.h"
-#include "core/author/accuracy_source.h"
+#include "core/author/accuracy_study.h"
 #include "core/base/number.h"
-#include "core/integrate/integrator.h"
 #include "core/io/scene_xml.h"
 
 #define STEPS_MOST 20
@@ -55,31 +55,18 @@ static gboolean read_method(const char *text, SporeAccuracyMethod *method, GErro
          (method->linear = spore_cli_choice("--methods", parts[2], spore_linear_names, error)) >= 0;
 }
 
-/* Adds the method with each of the solvers, where it has anything to solve. */
-static void add_with_solvers(GArray *methods, SporeAccuracyMethod method, const GArray *nonlinear,
-                             const GArray *linear) {
-  gboolean implicit = spore_integrator(method.integrator)->implicit;
-  for (guint n = 0; n < MAX(1, implicit && method.nonlinear < 0 ? nonlinear->len : 1); n++)
-    for (guint l = 0; l < MAX(1, implicit && method.linear < 0 ? linear->len : 1); l++) {
-      SporeAccuracyMethod with = method;
-      if (implicit && method.nonlinear < 0 && nonlinear->len) with.nonlinear = g_array_index(nonlinear, int, n);
-      if (implicit && method.linear < 0 && linear->len) with.linear = g_array_index(linear, int, l);
-      g_array_append_val(methods, with);
-    }
-}
-
 static gboolean read_methods(const Request *request, GArray *methods, GError **error) {
   g_autoptr(GArray) nonlinear = g_array_new(FALSE, FALSE, sizeof(int));
   g_autoptr(GArray) linear = g_array_new(FALSE, FALSE, sizeof(int));
   if (!read_names("--nonlinear", request->nonlinear, spore_nonlinear_names, nonlinear, error) ||
       !read_names("--linear", request->linear, spore_linear_names, linear, error))
     return FALSE;
-  const char *usual = nonlinear->len || linear->len ? "implicit_euler,tr_bdf2,implicit_midpoint,bdf2" : "";
-  g_auto(GStrv) words = g_strsplit(request->methods ? request->methods : usual, ",", -1);
+  if (!request->methods) spore_accuracy_methods_add_usual(methods, nonlinear, linear);
+  g_auto(GStrv) words = g_strsplit(request->methods ? request->methods : "", ",", -1);
   for (char **word = words; *word; word++) {
     SporeAccuracyMethod method;
     if (!read_method(g_strstrip(*word), &method, error)) return FALSE;
-    add_with_solvers(methods, method, nonlinear, linear);
+    spore_accuracy_methods_add(methods, method, nonlinear, linear);
   }
   return TRUE;
 }
@@ -188,7 +175,6 @@ static gboolean may_write(const char *scene, const Request *request, GError **er
 
 static gboolean study(SporeCli *cli, const char *file, const Request *request, SporeAccuracyOptions *options,
                       GError **error) {
-  SporeError fault = SPORE_ERROR_INIT;
   g_autoptr(SporeRun) run = spore_run_open(cli, file, &request->scene, 1, error);
   g_autoptr(GArray) levels = g_array_new(FALSE, FALSE, sizeof(int));
   if (!run || !check_body(run, request->body, error) ||
@@ -197,18 +183,12 @@ static gboolean study(SporeCli *cli, const char *file, const Request *request, S
   options->levels = (const int *)(gconstpointer)levels->data;
   options->level_count = levels->len;
   const SporeTrack *input = request->scene.input ? &run->input : NULL;
-  SporeAccuracySource *source =
-      spore_accuracy_source_new(run->document, run->simulation, run->pool, input, spore_cli_cancel(), request->body);
-  SporeAccuracyScene scene = spore_accuracy_source_scene(source);
-  SporeAccuracyReport *report = spore_accuracy_study(&scene, options, &fault);
-  spore_accuracy_source_free(source);
-  if (!report) {
-    spore_error_at(&fault, file);
-    return spore_error_propagate(&fault, error);
-  }
-  gboolean done = write_files(file, request, report, error);
-  if (done) spore_accuracy_tell(cli, file, report);
-  spore_accuracy_report_free(report);
+  SporeAccuracyStudy *found =
+      spore_accuracy_study_new(run->document, run->simulation, run->pool, input, options, error);
+  if (!found) return FALSE;
+  gboolean done = write_files(file, request, found->report, error);
+  if (done) spore_accuracy_tell(cli, file, found->report);
+  spore_accuracy_study_free(found);
   return done;
 }
 

@@ -10,6 +10,7 @@
 #define SPORE_MEASURE_ACCURACY_H
 
 #include "core/base/progress.h"
+#include "core/measure/plot.h"
 #include "core/measure/trial.h"
 
 /* How the bodies are moved and solved. */
@@ -125,8 +126,18 @@ typedef struct SporeAccuracyReport {
 SporeAccuracyReport *spore_accuracy_study(const SporeAccuracyScene *scene, const SporeAccuracyOptions *options,
                                           SporeError *error);
 void spore_accuracy_report_free(SporeAccuracyReport *report);
-/* Work-precision plot as an SVG document in UTF-8, to be freed with spore_free: error over step and error over cost,
- * legible in black and white. title: translated. NULL: no memory, or no point can be shown. */
+/* The work-precision plot: error over step, and error over cost, a line a method and level. Points whose error is not a
+ * number stand above all others; empty points are not stable, ringed ones are the Pareto set. */
+typedef struct SporeAccuracyPlot {
+  SporePlotPanel panels[2]; /* by step (ms) and by cost (s on the processor for a simulated s); errors in percent */
+  size_t *first;            /* of each line: index in the report of the line's first point; the others follow */
+  struct SporeAccuracyPlotData *data;
+} SporeAccuracyPlot;
+/* The report stays alive longer than the plot. False with *error: no memory. */
+bool spore_accuracy_plot_make(SporeAccuracyPlot *plot, const SporeAccuracyReport *report, SporeError *error);
+void spore_accuracy_plot_clear(SporeAccuracyPlot *plot);
+/* The same as an SVG document in UTF-8, to be freed with spore_free, legible in black and white. title: translated.
+ * NULL: no memory, or no point can be shown. */
 char *spore_accuracy_svg(const SporeAccuracyReport *report, const char *title, SporeError *error);
 
 #endif

@@ -8,9 +8,9 @@
 #include "core/measure/plot.h"
 
 /* A line a method and level. Points whose error is not a number stand above all others. */
-typedef struct Lines {
+typedef struct SporeAccuracyPlotData {
   SporePlotLine *by_step, *by_cost;
-  size_t count;
+  size_t count, *first;
   double *step, *cost, *error;
   bool *hollow, *ringed;
   char (*labels)[SPORE_ACCURACY_LABEL + 20];
@@ -24,14 +24,15 @@ static bool allocate(Lines *lines, size_t points) {
   lines->error = SPORE_NEW_ARRAY(double, points);
   lines->hollow = SPORE_NEW_ARRAY(bool, points);
   lines->ringed = SPORE_NEW_ARRAY(bool, points);
+  lines->first = SPORE_NEW_ARRAY(size_t, points);
   lines->labels = spore_allocate(points, sizeof *lines->labels);
   return lines->by_step && lines->by_cost && lines->step && lines->cost && lines->error && lines->hollow &&
-         lines->ringed && lines->labels;
+         lines->ringed && lines->first && lines->labels;
 }
 
 static void clear(Lines *lines) {
-  void *const all[] = {lines->by_step, lines->by_cost, lines->step,   lines->cost,
-                       lines->error,   lines->hollow,  lines->ringed, lines->labels};
+  void *const all[] = {lines->by_step, lines->by_cost, lines->step,  lines->cost,  lines->error,
+                       lines->hollow,  lines->ringed,  lines->first, lines->labels};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) spore_free(all[i]);
 }
 
@@ -54,6 +55,7 @@ static void add_line(Lines *lines, const SporeAccuracyReport *report, size_t fir
                         .y = lines->error + first,
                         .hollow = lines->hollow + first,
                         .ringed = lines->ringed + first};
+  lines->first[lines->count] = first;
   lines->by_step[lines->count] = line;
   line.x = lines->cost + first;
   lines->by_cost[lines->count++] = line;
@@ -75,44 +77,50 @@ static void fill(Lines *lines, const SporeAccuracyReport *report) {
   }
 }
 
-static char *draw(const SporeAccuracyReport *report, const Lines *lines, const char *title, SporeError *error) {
-  const char *error_label = report->statistics ? _("error of mean places (percent of a body's length)")
-                                               : _("error (percent of a body's length)");
-  char note[1024];
-  snprintf(
-      note, sizeof note, "%s\n%s", report->sentence ? report->sentence : "",
-      _("Ringed: the Pareto set. Empty: not stable. In grey: what cannot be told from the reference's own error."));
-  const SporePlotPanel panels[] = {{.x_label = _("step (ms)"),
-                                    .y_label = error_label,
-                                    .log_x = true,
-                                    .log_y = true,
-                                    .lines = lines->by_step,
-                                    .line_count = lines->count,
-                                    .shade_below = 100 * report->floor,
-                                    .shade_label = _("cannot be told"),
-                                    .label_lines = true},
-                                   {.x_label = _("time on the processor for a simulated second (s)"),
-                                    .y_label = error_label,
-                                    .log_x = true,
-                                    .log_y = true,
-                                    .lines = lines->by_cost,
-                                    .line_count = lines->count,
-                                    .mark_label = _("real time"),
-                                    .mark_x = 1,
-                                    .shade_below = 100 * report->floor,
-                                    .shade_label = _("cannot be told")}};
-  return spore_plot_svg(title, note, panels, sizeof panels / sizeof *panels, error);
+static void set_panels(SporeAccuracyPlot *plot, const SporeAccuracyReport *report, const Lines *lines) {
+  const SporePlotPanel both = {.y_label = report->statistics ? _("error of mean places (percent of a body's length)")
+                                                             : _("error (percent of a body's length)"),
+                               .log_x = true,
+                               .log_y = true,
+                               .line_count = lines->count,
+                               .shade_below = 100 * report->floor,
+                               .shade_label = _("cannot be told")};
+  plot->panels[0] = plot->panels[1] = both;
+  plot->panels[0].x_label = _("step (ms)");
+  plot->panels[0].lines = lines->by_step;
+  plot->panels[0].label_lines = true;
+  plot->panels[1].x_label = _("time on the processor for a simulated second (s)");
+  plot->panels[1].lines = lines->by_cost;
+  plot->panels[1].mark_label = _("real time");
+  plot->panels[1].mark_x = 1;
+}
+
+bool spore_accuracy_plot_make(SporeAccuracyPlot *plot, const SporeAccuracyReport *report, SporeError *error) {
+  *plot = (SporeAccuracyPlot){.data = SPORE_NEW(Lines)};
+  if (plot->data && allocate(plot->data, report->point_count)) {
+    fill(plot->data, report);
+    set_panels(plot, report, plot->data);
+    plot->first = plot->data->first;
+    return true;
+  }
+  spore_accuracy_plot_clear(plot);
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a plot"));
+}
+
+void spore_accuracy_plot_clear(SporeAccuracyPlot *plot) {
+  if (plot->data) clear(plot->data);
+  spore_free(plot->data);
+  *plot = (SporeAccuracyPlot){0};
 }
 
 char *spore_accuracy_svg(const SporeAccuracyReport *report, const char *title, SporeError *error) {
-  Lines lines = {0};
-  char *svg = NULL;
-  if (allocate(&lines, report->point_count)) {
-    fill(&lines, report);
-    svg = draw(report, &lines, title, error);
-  } else {
-    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a plot"));
-  }
-  clear(&lines);
+  SporeAccuracyPlot plot;
+  char note[1024];
+  if (!spore_accuracy_plot_make(&plot, report, error)) return NULL;
+  snprintf(
+      note, sizeof note, "%s\n%s", report->sentence ? report->sentence : "",
+      _("Ringed: the Pareto set. Empty: not stable. In grey: what cannot be told from the reference's own error."));
+  char *svg = spore_plot_svg(title, note, plot.panels, sizeof plot.panels / sizeof *plot.panels, error);
+  spore_accuracy_plot_clear(&plot);
   return svg;
 }

@@ -27,7 +27,7 @@ typedef struct SporeStudy {
 } SporeStudy;
 
 /* accuracy_notes.c: what all parts of the study ask. */
-/* Seconds that the program has had on the processor. */
+/* Seconds that the thread has had on the processor: what the program does beside the study does not count. */
 double spore_study_processor_s(void);
 /* The same since the study began. */
 double spore_study_elapsed_s(const SporeStudy *study);

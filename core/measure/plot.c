@@ -1,5 +1,5 @@
 /* Draws panels of lines through measured points as an SVG document. */
-#include "core/measure/plot.h"
+#include "core/measure/plot_axis.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,79 +22,30 @@
 
 const char *const spore_plot_colours[SPORE_PLOT_COLOURS] = {"#0072b2", "#d55e00", "#009e73",
                                                             "#cc79a7", "#e69f00", "#56b4e9"};
-/* Dashes by line, the first one whole. */
-static const char *const dashes[] = {"", "7 4", "2 3", "10 3 2 3", "4 2", "12 5"};
+const SporePlotStyle spore_plot_styles[SPORE_PLOT_COLOURS] = {
+    {0},
+    {2, {7, 4}, 4, {{-.85, -.85}, {.85, -.85}, {.85, .85}, {-.85, .85}}},
+    {2, {2, 3}, 3, {{0, -1.15}, {1.05, .7}, {-1.05, .7}}},
+    {4, {10, 3, 2, 3}, 4, {{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}}},
+    {2, {4, 2}, 3, {{0, 1.15}, {1.05, -.7}, {-1.05, -.7}}},
+    {2,
+     {12, 5},
+     12,
+     {{-1.2, -.35},
+      {-.35, -.35},
+      {-.35, -1.2},
+      {.35, -1.2},
+      {.35, -.35},
+      {1.2, -.35},
+      {1.2, .35},
+      {.35, .35},
+      {.35, 1.2},
+      {-.35, 1.2},
+      {-.35, .35},
+      {-1.2, .35}}}};
 
 /* A length to a hundredth of a pixel. */
 static void add_number(SporeTextBuffer *text, double value) { spore_text_add_number(text, round(value * 100) / 100); }
-
-/* One direction of a panel: values low .. high lie at pixels from .. to. */
-typedef struct Axis {
-  double low, high, from, to;
-  bool logarithmic;
-  double tick[SPORE_PLOT_TICKS];
-  size_t ticks;
-} Axis;
-
-static bool shows(const Axis *axis, double value) { return isfinite(value) && (!axis->logarithmic || value > 0); }
-
-static double place(const Axis *axis, double value) {
-  double low = axis->low, high = axis->high;
-  if (axis->logarithmic) value = log(value), low = log(low), high = log(high);
-  return axis->from + (axis->to - axis->from) * (value - low) / (high - low);
-}
-
-static void add_tick(Axis *axis, double value) {
-  double slack = 1e-9 * (axis->high - axis->low);
-  if (axis->ticks < SPORE_PLOT_TICKS && value >= axis->low - slack && value <= axis->high + slack)
-    axis->tick[axis->ticks++] = value;
-}
-
-/* 1, 2 and 5 of each decade, or 1 alone over many. */
-static void tick_decades(Axis *axis) {
-  static const double steps[] = {1, 2, 5};
-  int first = (int)floor(log10(axis->low)), last = (int)ceil(log10(axis->high)), each = last - first > 3 ? 1 : 3;
-  int stride = 1 + (last - first) / SPORE_PLOT_TICKS;
-  for (int decade = first; decade <= last; decade += stride)
-    for (int k = 0; k < each; k++) add_tick(axis, steps[k] * pow(10, decade));
-}
-
-static void tick_evenly(Axis *axis) {
-  double rough = (axis->high - axis->low) / 6, unit = pow(10, floor(log10(rough))), step = unit;
-  if (rough > 5 * unit) step = 10 * unit;
-  else if (rough > 2 * unit) step = 5 * unit;
-  else if (rough > unit) step = 2 * unit;
-  double first = ceil(axis->low / step);
-  for (double k = 0; k < SPORE_PLOT_TICKS && (first + k) * step <= axis->high + 1e-9 * fabs(axis->high); k++)
-    add_tick(axis, (first + k) * step);
-}
-
-size_t spore_plot_ticks(double low, double high, double tick[SPORE_PLOT_TICKS]) {
-  Axis axis = {.low = low, .high = high};
-  tick_evenly(&axis);
-  memcpy(tick, axis.tick, axis.ticks * sizeof *tick);
-  return axis.ticks;
-}
-
-/* Fits the values with a little room; a linear axis of values that are not negative begins at 0. */
-static bool fit_axis(Axis *axis, const SporePlotPanel *panel, bool vertical) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (size_t l = 0; l < panel->line_count; l++)
-    for (size_t i = 0; i < panel->lines[l].count; i++) {
-      double value = (vertical ? panel->lines[l].y : panel->lines[l].x)[i];
-      if (shows(axis, value)) low = fmin(low, value), high = fmax(high, value);
-    }
-  if (!(low <= high)) return false;
-  if (axis->logarithmic) {
-    axis->low = low / 1.2, axis->high = high * 1.2;
-    tick_decades(axis);
-  } else {
-    axis->low = low >= 0 ? 0 : low - 0.05 * (high - low);
-    axis->high = high + (high > axis->low ? 0.05 * (high - axis->low) : 1);
-    tick_evenly(axis);
-  }
-  return true;
-}
 
 static void format_tick(double value, char text[SPORE_NUMBER_TEXT]) {
   double unit = value != 0 ? pow(10, floor(log10(fabs(value))) - 5) : 1;
@@ -104,18 +55,19 @@ static void format_tick(double value, char text[SPORE_NUMBER_TEXT]) {
 #define GRID " stroke=\"#dddddd\" stroke-width=\"1\""
 #define FRAME " stroke=\"#444444\" stroke-width=\"1\""
 
-static void draw_axes(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_axes(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y,
+                      const SporePlotPanel *panel) {
   char number[SPORE_NUMBER_TEXT];
   double last = -HUGE_VAL;
   for (size_t i = 0; i < x->ticks; i++) {
-    double at = place(x, x->tick[i]);
+    double at = spore_plot_axis_place(x, x->tick[i]);
     spore_svg_line(text, at, y->from, at, y->to, GRID);
     if (at - last < 26) continue; /* no room for its number */
     format_tick(x->tick[i], number);
     spore_svg_text(text, last = at, y->from + LINE_OF_TEXT, " text-anchor=\"middle\"", number);
   }
   for (size_t i = 0; i < y->ticks; i++) {
-    double at = place(y, y->tick[i]);
+    double at = spore_plot_axis_place(y, y->tick[i]);
     spore_svg_line(text, x->from, at, x->to, at, GRID);
     format_tick(y->tick[i], number);
     spore_svg_text(text, x->from - 7, at + 4, " text-anchor=\"end\"", number);
@@ -133,20 +85,26 @@ static void draw_axes(SporeTextBuffer *text, const Axis *x, const Axis *y, const
   spore_text_add(text, "</g>\n");
 }
 
-/* Shape of a line's points about (0, 0), of radius 1. The first line's is a circle, which is drawn as such. */
-static const char *const shapes[] = {"",
-                                     "M-.85-.85H.85V.85H-.85Z",
-                                     "M0-1.15L1.05.7H-1.05Z",
-                                     "M0-1.25L1.25 0L0 1.25L-1.25 0Z",
-                                     "M0 1.15L1.05-.7H-1.05Z",
-                                     "M-1.2-.35H-.35V-1.2H.35V-.35H1.2V.35H.35V1.2H-.35V.35H-1.2Z"};
+/* ` stroke-dasharray="..."`, of a line that is dashed. */
+static void add_dashes(SporeTextBuffer *text, const SporePlotStyle *style) {
+  for (size_t i = 0; i < style->dash_count; i++) {
+    spore_text_add(text, i == 0 ? " stroke-dasharray=\"" : " ");
+    spore_text_add_number(text, style->dash[i]);
+  }
+  if (style->dash_count > 0) spore_text_add(text, "\"");
+}
 
 static void draw_point(SporeTextBuffer *text, double x, double y, double radius, size_t number, bool hollow) {
-  const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS], *shape = shapes[number % SPORE_PLOT_COLOURS];
-  if (*shape) {
-    spore_text_add(text, "<path d=\"");
-    spore_text_add(text, shape);
-    spore_text_add(text, "\" transform=\"translate(");
+  const char *colour = spore_plot_colours[number % SPORE_PLOT_COLOURS];
+  const SporePlotStyle *style = &spore_plot_styles[number % SPORE_PLOT_COLOURS];
+  if (style->corner_count > 0) {
+    for (size_t i = 0; i < style->corner_count; i++) {
+      spore_text_add(text, i == 0 ? "<path d=\"M" : "L");
+      spore_text_add_number(text, style->corner[i][0]);
+      spore_text_add(text, " ");
+      spore_text_add_number(text, style->corner[i][1]);
+    }
+    spore_text_add(text, "Z\" transform=\"translate(");
     add_number(text, x);
     spore_text_add(text, " ");
     add_number(text, y);
@@ -163,7 +121,7 @@ static void draw_point(SporeTextBuffer *text, double x, double y, double radius,
   spore_text_add(text, hollow ? "white" : colour);
   spore_text_add(text, "\" stroke=\"");
   spore_text_add(text, colour);
-  spore_text_add(text, *shape ? "\" stroke-width=\"0.35\"/>\n" : "\" stroke-width=\"1.3\"/>\n");
+  spore_text_add(text, style->corner_count > 0 ? "\" stroke-width=\"0.35\"/>\n" : "\" stroke-width=\"1.3\"/>\n");
 }
 
 static void draw_ring(SporeTextBuffer *text, double x, double y) {
@@ -175,29 +133,28 @@ static void draw_ring(SporeTextBuffer *text, double x, double y) {
   spore_text_add(text, ")\"/>\n");
 }
 
-static void draw_line(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotLine *line, size_t number) {
+static void draw_line(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y, const SporePlotLine *line,
+                      size_t number) {
   bool first = true;
   if (!line->scattered) {
     spore_text_add(text, "<polyline fill=\"none\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke=\"");
     spore_text_add(text, spore_plot_colours[number % SPORE_PLOT_COLOURS]);
-    if (number % SPORE_PLOT_COLOURS) {
-      spore_text_add(text, "\" stroke-dasharray=\"");
-      spore_text_add(text, dashes[number % SPORE_PLOT_COLOURS]);
-    }
-    spore_text_add(text, "\" points=\"");
+    spore_text_add(text, "\"");
+    add_dashes(text, &spore_plot_styles[number % SPORE_PLOT_COLOURS]);
+    spore_text_add(text, " points=\"");
     for (size_t i = 0; i < line->count; i++) {
-      if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
+      if (!spore_plot_axis_shows(x, line->x[i]) || !spore_plot_axis_shows(y, line->y[i])) continue;
       if (!first) spore_text_add(text, " ");
       first = false;
-      add_number(text, place(x, line->x[i]));
+      add_number(text, spore_plot_axis_place(x, line->x[i]));
       spore_text_add(text, ",");
-      add_number(text, place(y, line->y[i]));
+      add_number(text, spore_plot_axis_place(y, line->y[i]));
     }
     spore_text_add(text, "\"/>\n");
   }
   for (size_t i = 0; (line->scattered || line->count <= POINTS_MOST) && i < line->count; i++) {
-    if (!shows(x, line->x[i]) || !shows(y, line->y[i])) continue;
-    double at_x = place(x, line->x[i]), at_y = place(y, line->y[i]);
+    if (!spore_plot_axis_shows(x, line->x[i]) || !spore_plot_axis_shows(y, line->y[i])) continue;
+    double at_x = spore_plot_axis_place(x, line->x[i]), at_y = spore_plot_axis_place(y, line->y[i]);
     draw_point(text, at_x, at_y, 3.5, number, line->hollow && line->hollow[i]);
     if (line->ringed && line->ringed[i]) draw_ring(text, at_x, at_y);
   }
@@ -209,16 +166,18 @@ typedef struct EndLabel {
   const char *text;
 } EndLabel;
 
-static bool find_end(const Axis *x, const Axis *y, const SporePlotLine *line, EndLabel *end) {
+static bool find_end(const SporePlotAxis *x, const SporePlotAxis *y, const SporePlotLine *line, EndLabel *end) {
   *end = (EndLabel){-HUGE_VAL, 0, line->label};
   for (size_t i = 0; i < line->count; i++)
-    if (shows(x, line->x[i]) && shows(y, line->y[i]) && place(x, line->x[i]) > end->x)
-      end->x = place(x, line->x[i]), end->y = place(y, line->y[i]);
+    if (spore_plot_axis_shows(x, line->x[i]) && spore_plot_axis_shows(y, line->y[i]) &&
+        spore_plot_axis_place(x, line->x[i]) > end->x)
+      end->x = spore_plot_axis_place(x, line->x[i]), end->y = spore_plot_axis_place(y, line->y[i]);
   return isfinite(end->x);
 }
 
 /* Labels from the top down, none on another one. */
-static void draw_end_labels(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_end_labels(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y,
+                            const SporePlotPanel *panel) {
   double last = -HUGE_VAL, last_y = -HUGE_VAL;
   size_t last_line = 0;
   for (size_t drawn = 0; drawn < panel->line_count; drawn++) {
@@ -238,9 +197,10 @@ static void draw_end_labels(SporeTextBuffer *text, const Axis *x, const Axis *y,
   }
 }
 
-static void draw_shade(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
+static void draw_shade(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y,
+                       const SporePlotPanel *panel) {
   if (!(panel->shade_below > y->low)) return;
-  double top = panel->shade_below < y->high ? place(y, panel->shade_below) : y->to;
+  double top = panel->shade_below < y->high ? spore_plot_axis_place(y, panel->shade_below) : y->to;
   spore_text_add(text, "<rect fill=\"#e8e8e8\"");
   spore_svg_attribute(text, "x", x->from);
   spore_svg_attribute(text, "y", top);
@@ -252,9 +212,10 @@ static void draw_shade(SporeTextBuffer *text, const Axis *x, const Axis *y, cons
 }
 
 /* The label stands on the side that has room. */
-static void draw_mark(SporeTextBuffer *text, const Axis *x, const Axis *y, const SporePlotPanel *panel) {
-  if (!panel->mark_label || !shows(x, panel->mark_x)) return;
-  double at = place(x, panel->mark_x);
+static void draw_mark(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y,
+                      const SporePlotPanel *panel) {
+  if (!panel->mark_label || !spore_plot_axis_shows(x, panel->mark_x)) return;
+  double at = spore_plot_axis_place(x, panel->mark_x);
   bool right = at < (x->from + x->to) / 2;
   spore_svg_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
   /* Drawn twice, first white and thick, so that the label is legible over lines. */
@@ -280,10 +241,10 @@ static double room_for_labels(const SporePlotPanel *panel) {
 }
 
 static bool draw_panel(SporeTextBuffer *text, const SporePlotPanel *panel, double left) {
-  Axis x = {
+  SporePlotAxis x = {
       .from = left + LEFT, .to = left + PANEL_WIDTH - RIGHT - room_for_labels(panel), .logarithmic = panel->log_x};
-  Axis y = {.from = HEIGHT - BOTTOM, .to = TOP, .logarithmic = panel->log_y};
-  if (!fit_axis(&x, panel, false) || !fit_axis(&y, panel, true)) return false;
+  SporePlotAxis y = {.from = HEIGHT - BOTTOM, .to = TOP, .logarithmic = panel->log_y};
+  if (!spore_plot_axis_fit(&x, panel, false) || !spore_plot_axis_fit(&y, panel, true)) return false;
   draw_shade(text, &x, &y, panel);
   draw_axes(text, &x, &y, panel);
   for (size_t l = 0; l < panel->line_count; l++) draw_line(text, &x, &y, &panel->lines[l], l);
@@ -298,9 +259,9 @@ static void draw_legend(SporeTextBuffer *text, const SporePlotPanel *panel) {
     if (l % SPORE_PLOT_COLOURS) {
       spore_text_add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
       spore_text_add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
-      spore_text_add(text, "\" stroke-dasharray=\"");
-      spore_text_add(text, dashes[l % SPORE_PLOT_COLOURS]);
-      spore_text_add(text, "\" d=\"M");
+      spore_text_add(text, "\"");
+      add_dashes(text, &spore_plot_styles[l % SPORE_PLOT_COLOURS]);
+      spore_text_add(text, " d=\"M");
       add_number(text, x - 6);
       spore_text_add(text, " ");
       add_number(text, TOP - 27);

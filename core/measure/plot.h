@@ -34,6 +34,14 @@ typedef struct SporePlotPanel {
  * colour i % SPORE_PLOT_COLOURS. */
 #define SPORE_PLOT_COLOURS 6
 extern const char *const spore_plot_colours[SPORE_PLOT_COLOURS];
+/* Dashes of line i, and what its points look like. */
+typedef struct SporePlotStyle {
+  size_t dash_count;    /* 0: the line is whole */
+  double dash[4];       /* pixels drawn, left out, drawn, left out */
+  size_t corner_count;  /* 0: points are circles of radius 1 */
+  double corner[12][2]; /* x to the right, y downwards, around (0, 0) */
+} SporePlotStyle;
+extern const SporePlotStyle spore_plot_styles[SPORE_PLOT_COLOURS];
 /* Values that a linear axis from low to high is marked at, low < high: multiples of 1, 2 or 5 of a power of 10. Returns
  * their number. */
 #define SPORE_PLOT_TICKS 24

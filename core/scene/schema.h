@@ -17,7 +17,8 @@ bool spore_format_version_check(const char *version, SporeError *error);
 /* Tree of elements (sections of the root in this order; units of a body in this order):
  *
  *   spore(version)
- *     meta(title author description licence)
+ *     meta(title author description licence) > measured(method time_step level body error floor step_cost statistics
+ *                                              reference reference_error start duration date scene_hash)
  *     units(length)                        how lengths are shown to people; the file is SI
  *     environment(gravity)
  *     solver(spore_solver_parameters)

@@ -15,6 +15,12 @@ typedef struct SporeMetaFields {
   const char *title, *author, *description, *licence;
 } SporeMetaFields;
 
+typedef struct SporeMeasuredFields {
+  const char *method, *level, *body, *reference, *date, *scene_hash;
+  double time_step, error, floor, step_cost, reference_error, start, duration; /* s; errors: parts of a length */
+  bool statistics;
+} SporeMeasuredFields;
+
 typedef struct SporeUnitsFields {
   int length; /* index into m cm mm um in */
 } SporeUnitsFields;

@@ -143,7 +143,7 @@ static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, G
          set_text(copy, body, "role", "unmovable", error);
 }
 
-static gboolean vary(SporeDocument *copy, const SporeVariation *variation, GError **error) {
+gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variation, GError **error) {
   SporeObject *bodies = spore_document_section(copy, "bodies");
   guint passive = 0, named = 0, taken = 0;
   if (!vary_solver(copy, variation, error)) return FALSE;
@@ -171,7 +171,7 @@ SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariat
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error) {
   SporeDocument *copy = spore_document_copy(document);
   SporeSimulation *simulation =
-      vary(copy, variation, error) ? spore_simulation_new(copy, pool, input, cancel, error) : NULL;
+      spore_variation_set(copy, variation, error) ? spore_simulation_new(copy, pool, input, cancel, error) : NULL;
   spore_document_free(copy);
   return simulation;
 }
@@ -188,7 +188,7 @@ static gboolean send(SporeDocument *copy, SporeObject *object, const char *const
 gboolean spore_variation_apply(SporeDocument *document, const SporeVariation *variation, SporeSimulation *simulation) {
   SporeDocument *copy = spore_document_copy(document);
   SporeObject *bodies = spore_document_section(copy, "bodies");
-  gboolean any = FALSE, varied = vary(copy, variation, NULL);
+  gboolean any = FALSE, varied = spore_variation_set(copy, variation, NULL);
   for (guint i = 0; varied && i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i), *mechanical = spore_object_child_of(body, "mechanical");
     if (variation->stiffness > 0 && mechanical && spore_object_child_count(mechanical) > 0)

@@ -21,9 +21,13 @@ typedef struct SporeVariation {
   gboolean every_second;          /* stiffness and mass are of the second, fourth, ... passive body alone */
 } SporeVariation;
 
+/* Sets in the document itself what the variation says, as commands. Values are held within the ranges of their
+ * parameters. FALSE with a GError, and the document half changed: no such body, integrator, solver or level, or no body
+ * that the integrator can move. */
+gboolean spore_variation_set(SporeDocument *document, const SporeVariation *variation, GError **error);
+
 /* Compiles a varied copy of the document, which stays as it is. The other arguments are those of spore_simulation_new.
- * Values are held within the ranges of their parameters. NULL with a GError: no such body, integrator, solver or level,
- * no body that the integrator can move, or the scene cannot run so. */
+ * NULL with a GError: as spore_variation_set, or the scene cannot run so. */
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error);
 

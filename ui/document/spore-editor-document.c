@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 
 #include "core/io/scene_xml.h"
+#include "core/scene/run_hash.h"
 
 struct _SporeEditorDocument {
   GObject parent;
@@ -11,12 +12,19 @@ struct _SporeEditorDocument {
   guint listener;
   guint32 selection;
   gboolean recovered;
+  SporeAccuracyStudy *study;
+  struct {
+    guint64 revision; /* of the document that the rest is of */
+    gboolean known, holds;
+    gssize point;
+    SporeMeasured measured;
+  } accuracy;
   char *original; /* of a recovered document; NULL: it was never saved */
 };
 
 G_DEFINE_FINAL_TYPE(SporeEditorDocument, spore_editor_document, G_TYPE_OBJECT)
 
-enum { CHANGED, HISTORY_CHANGED, SELECTION_CHANGED, SIGNAL_COUNT };
+enum { CHANGED, HISTORY_CHANGED, SELECTION_CHANGED, STUDIED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 static gboolean is_within(SporeObject *object, guint32 ancestor) {
@@ -43,6 +51,7 @@ static void spore_editor_document_finalize(GObject *object) {
   SporeEditorDocument *self = SPORE_EDITOR_DOCUMENT(object);
   spore_document_unlisten(self->document, self->listener);
   spore_document_free(self->document);
+  spore_accuracy_study_free(self->study);
   g_free(self->original);
   G_OBJECT_CLASS(spore_editor_document_parent_class)->finalize(object);
 }
@@ -54,11 +63,12 @@ static void spore_editor_document_class_init(SporeEditorDocumentClass *class) {
                                   G_TYPE_UINT, G_TYPE_UINT);
   signals[HISTORY_CHANGED] =
       g_signal_new("history-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+  signals[STUDIED] = g_signal_new("studied", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   signals[SELECTION_CHANGED] =
       g_signal_new("selection-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
-static void spore_editor_document_init(SporeEditorDocument *self) {}
+static void spore_editor_document_init(SporeEditorDocument *self) { self->accuracy.point = -1; }
 
 SporeEditorDocument *spore_editor_document_new(SporeDocument *document) {
   SporeEditorDocument *self = g_object_new(SPORE_TYPE_EDITOR_DOCUMENT, NULL);
@@ -86,6 +96,48 @@ SporeObject *spore_editor_document_selected_body(SporeEditorDocument *self) {
   while (object && !g_str_equal(spore_object_type(object)->element, "body")) object = spore_object_parent(object);
   return object;
 }
+
+/* The accuracy study. */
+
+/* Compares scene and study, once for each revision: a study of many points takes a while to compare. */
+static void compare_study(SporeEditorDocument *self) {
+  guint64 revision = spore_document_revision(self->document);
+  if (self->accuracy.known && self->accuracy.revision == revision) return;
+  self->accuracy.known = TRUE;
+  self->accuracy.revision = revision;
+  gboolean remembers = spore_object_child_of(spore_document_section(self->document, "meta"), "measured") != NULL;
+  guint64 hash = self->study || remembers ? spore_document_run_hash(self->document) : 0;
+  self->accuracy.measured = remembers ? spore_measured_state(self->document, hash) : SPORE_MEASURED_NOT;
+  self->accuracy.holds = self->study && spore_accuracy_study_holds(self->study, self->document);
+  if (self->accuracy.holds) self->accuracy.point = spore_accuracy_study_find(self->study, hash);
+}
+
+const SporeAccuracyStudy *spore_editor_document_get_study(SporeEditorDocument *self) { return self->study; }
+
+void spore_editor_document_take_study(SporeEditorDocument *self, SporeAccuracyStudy *study) {
+  spore_accuracy_study_free(self->study);
+  self->study = study;
+  self->accuracy.known = FALSE;
+  self->accuracy.point = -1;
+  g_signal_emit(self, signals[STUDIED], 0);
+}
+
+gboolean spore_editor_document_study_holds(SporeEditorDocument *self) {
+  compare_study(self);
+  return self->accuracy.holds;
+}
+
+gssize spore_editor_document_get_point(SporeEditorDocument *self) {
+  compare_study(self);
+  return self->accuracy.point;
+}
+
+SporeMeasured spore_editor_document_get_measured(SporeEditorDocument *self) {
+  compare_study(self);
+  return self->accuracy.measured;
+}
+
+/* Files. */
 
 const char *spore_editor_document_get_save_file(SporeEditorDocument *self) {
   return self->recovered ? self->original : spore_document_file(self->document);

@@ -3,12 +3,14 @@
  * Signals
  *   changed (SporeChangeKind kind, guint id, guint property)   after each change, undo and redo included
  *   history-changed ()                                         undo, redo or modified state may differ
+ *   studied ()                                                 another accuracy study is there
  *   selection-changed ()                                                                                          */
 #ifndef SPORE_UI_DOCUMENT_SPORE_EDITOR_DOCUMENT_H
 #define SPORE_UI_DOCUMENT_SPORE_EDITOR_DOCUMENT_H
 
 #include <glib-object.h>
 
+#include "core/author/accuracy_study.h"
 #include "core/scene/document.h"
 
 G_BEGIN_DECLS
@@ -26,6 +28,17 @@ void spore_editor_document_select(SporeEditorDocument *self, guint32 id);
 SporeObject *spore_editor_document_selected(SporeEditorDocument *self); /* NULL: none */
 /* The body that is selected, or to which the selection belongs; NULL: none. */
 SporeObject *spore_editor_document_selected_body(SporeEditorDocument *self);
+
+/* The last accuracy study of the scene; NULL: none since the scene was opened. */
+const SporeAccuracyStudy *spore_editor_document_get_study(SporeEditorDocument *self);
+/* Takes the study. */
+void spore_editor_document_take_study(SporeEditorDocument *self, SporeAccuracyStudy *study);
+/* Whether the points of the study are of the scene as it is. */
+gboolean spore_editor_document_study_holds(SporeEditorDocument *self);
+/* The point of the study whose settings the scene has, or had last; -1: none was measured. */
+gssize spore_editor_document_get_point(SporeEditorDocument *self);
+/* What the scene itself remembers of a study. */
+SporeMeasured spore_editor_document_get_measured(SporeEditorDocument *self);
 
 /* Where Save writes: the document's file, or the original of one that was recovered. NULL: ask. */
 const char *spore_editor_document_get_save_file(SporeEditorDocument *self);

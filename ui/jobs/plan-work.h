@@ -17,4 +17,12 @@ SporePlanWork *spore_plan_work_new(const SporeDocument *document, gboolean measu
 gboolean spore_plan_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_plan_work_free(gpointer work);
 
+/* Of a work that was done. us a step; below 0: not measured. What leaving out saves may be below 0 where that is noise,
+ * too. */
+double spore_plan_work_measured_us(const SporePlanWork *work, const SporePlanStage *stage);
+double spore_plan_work_saved_us(const SporePlanWork *work, const SporePlanLeftOut *left_out);
+/* The plan as a table, what is in and what is left out, numbers in the C locale; fields are empty where nothing is
+ * known. g_free. */
+char *spore_plan_work_csv(const SporePlanWork *work);
+
 #endif

@@ -4,6 +4,8 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "ui/panels/plot-text.h"
+
 #define EXACT_PERCENT 1e-6 /* smaller errors are rounding: the result has as many elements as its source */
 #define MOST_POINTS 16
 #define LEFT 54
@@ -58,21 +60,6 @@ static double y_of(const Frame *f, double error) {
   return f->top + f->height * (f->high_y - log(error)) / (f->high_y - f->low_y);
 }
 
-static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
-  int width;
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
-  pango_layout_get_pixel_size(layout, &width, NULL);
-  gtk_render_layout(gtk_widget_get_style_context(widget), cr, fmax(0, x - align * width), y, layout);
-  cairo_new_path(cr); /* the text leaves a current point, from which a line would begin */
-}
-
-static double text_width(GtkWidget *widget, const char *text) {
-  int width;
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
-  pango_layout_get_pixel_size(layout, &width, NULL);
-  return width;
-}
-
 /* Wraps the text to the width of the widget. */
 static void draw_invitation(GtkWidget *widget, cairo_t *cr, const char *text) {
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
@@ -89,16 +76,17 @@ static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
   double free_from = 0; /* numbers that would touch the one before are left out */
   for (gsize i = 0; i < self->count; i++) {
     g_autofree char *number = g_strdup_printf("%zu", self->counts[i]);
-    double x = x_of(f, self->counts[i]), half = 0.5 * text_width(widget, number);
+    double x = x_of(f, self->counts[i]), half = 0.5 * spore_plot_text_width(widget, number);
     if (x - half < free_from) continue;
-    draw_text(widget, cr, fmin(x, gtk_widget_get_allocated_width(widget) - half), f->top + f->height + 2, 0.5, number);
+    spore_plot_text_draw(widget, cr, fmin(x, gtk_widget_get_allocated_width(widget) - half), f->top + f->height + 2,
+                         0.5, number);
     free_from = x + half + 6;
   }
   g_autofree char *high = g_strdup_printf("%.2g %%", exp(f->high_y)), *low = g_strdup_printf("%.2g %%", exp(f->low_y));
-  draw_text(widget, cr, f->left - 4, f->top - 4, 1, high);
-  draw_text(widget, cr, f->left - 4, f->top + f->height - 12, 1, low);
-  draw_text(widget, cr, f->left, 1, 0, self->label);
-  draw_text(widget, cr, f->left + f->width, f->top + f->height + 2 + LINE, 1, self->count_label);
+  spore_plot_text_draw(widget, cr, f->left - 4, f->top - 4, 1, high);
+  spore_plot_text_draw(widget, cr, f->left - 4, f->top + f->height - 12, 1, low);
+  spore_plot_text_draw(widget, cr, f->left, 1, 0, self->label);
+  spore_plot_text_draw(widget, cr, f->left + f->width, f->top + f->height + 2 + LINE, 1, self->count_label);
 }
 
 static void draw_line_at(cairo_t *cr, const Frame *f, size_t count, gboolean dashed) {
@@ -145,8 +133,8 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   if (self->enough) {
     draw_line_at(cr, &f, self->enough, TRUE);
     double x = x_of(&f, self->enough) - 5; /* the error falls, so there is room below, before the mark, or nowhere */
-    if (text_width(widget, _("more stop paying")) < x - f.left - 5)
-      draw_text(widget, cr, x, f.top + f.height - 20, 1, _("more stop paying"));
+    if (spore_plot_text_width(widget, _("more stop paying")) < x - f.left - 5)
+      spore_plot_text_draw(widget, cr, x, f.top + f.height - 20, 1, _("more stop paying"));
   }
   gdk_cairo_set_source_rgba(cr, &accent);
   draw_points(self, cr, &f);

@@ -9,6 +9,7 @@
 #include "core/scene/generated.h"
 #include "ui/document/body-marks.h"
 #include "ui/document/mapping-report.h"
+#include "ui/document/measured-facts.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-sphere-measures.h"
 #include "ui/jobs/spore-swing-measures.h"
@@ -26,7 +27,8 @@ struct _SporeInspector {
   GtkWidget *title, *subtitle, *sections;
   SporeEditorDocument *document;
   guint rebuild, refresh;
-  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *swing_facts, *mapping_facts;
+  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *swing_facts, *mapping_facts,
+      *measured_facts;
   SporeSphereMeasures *measures;
   SporeSwingMeasures *swings;
   SporeMappingReport mapping;
@@ -145,7 +147,19 @@ static void show_swing(SporeInspector *self, SporeObject *body) {
   gtk_widget_set_sensitive(self->swing_facts, text != NULL);
 }
 
+static void show_measured(SporeInspector *self) {
+  g_autofree char *text = spore_measured_sentence(self->document);
+  g_autofree char *source = spore_measured_source(document_of(self));
+  GtkStyleContext *style = gtk_widget_get_style_context(self->measured_facts);
+  if (spore_editor_document_get_measured(self->document) == SPORE_MEASURED_STALE)
+    gtk_style_context_add_class(style, "stale");
+  else gtk_style_context_remove_class(style, "stale");
+  gtk_label_set_text(GTK_LABEL(self->measured_facts), text ? text : "");
+  gtk_widget_set_tooltip_text(self->measured_facts, source);
+}
+
 static void show_facts(SporeInspector *self) {
+  if (self->measured_facts) show_measured(self);
   SporeObject *body = spore_editor_document_selected_body(self->document);
   if (!body || !self->model) return;
   SporeObject *model = spore_edit_body_model(body);
@@ -297,12 +311,20 @@ static void add_one(SporeInspector *self, SporeObject *object) {
   if (box) add_object(self, box, object);
 }
 
+/* What was measured is told, not edited. */
+static void add_measured(SporeInspector *self, SporeObject *measured) {
+  g_autofree char *path = spore_object_path(measured);
+  GtkBox *box = spore_section_list_add(sections_of(self), _(spore_object_type(measured)->label), path, NULL);
+  if (box) g_set_weak_pointer(&self->measured_facts, add_fact(box));
+}
+
 /* Sections of the scene that hold settings rather than objects. */
 static void add_settings(SporeInspector *self, SporeObject *object) {
   for (guint i = 0; i < spore_object_child_count(object); i++) {
     SporeObject *child = spore_object_child(object, i);
     if (spore_object_name(child)) continue;
-    if (spore_object_type(child)->table->count > 0) add_one(self, child);
+    if (g_str_equal(spore_object_type(child)->element, "measured")) add_measured(self, child);
+    else if (spore_object_type(child)->table->count > 0) add_one(self, child);
     add_settings(self, child);
   }
 }
@@ -384,6 +406,7 @@ void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *doc
   self->swings = spore_swing_measures_new();
   g_signal_connect_object(self->swings, "measured", G_CALLBACK(measured), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(document, "studied", G_CALLBACK(queue_refresh), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(queue_rebuild), self, G_CONNECT_SWAPPED);
   spore_section_list_begin(sections_of(self)); /* rows of the document before are not kept */
   spore_section_list_end(sections_of(self));

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "ui/panels/plot-text.h"
+
 #define LEFT 70
 #define RIGHT 14
 #define BOTTOM 20
@@ -59,16 +61,6 @@ static gboolean fit(SporeLinePlot *self, Frame *frame, double top) {
 static double x_of(const Frame *f, double x) { return f->left + f->width * (x - f->low_x) / (f->high_x - f->low_x); }
 static double y_of(const Frame *f, double y) { return f->top + f->height * (f->high_y - y) / (f->high_y - f->low_y); }
 
-/* align: 0 to 1, the part of the text left of x. Returns its width. */
-static double draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
-  int width;
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
-  pango_layout_get_pixel_size(layout, &width, NULL);
-  gtk_render_layout(gtk_widget_get_style_context(widget), cr, fmax(0, x - align * width), y, layout);
-  cairo_new_path(cr); /* the text leaves a current point, from which a line would begin */
-  return width;
-}
-
 static void draw_axes(SporeLinePlot *self, cairo_t *cr, const Frame *f, const GdkRGBA *colour) {
   GtkWidget *widget = GTK_WIDGET(self);
   double tick[SPORE_PLOT_TICKS], last = -HUGE_VAL;
@@ -84,7 +76,7 @@ static void draw_axes(SporeLinePlot *self, cairo_t *cr, const Frame *f, const Gd
     cairo_line_to(cr, x, f->top + f->height);
     cairo_stroke(cr);
     if (x - last < 50) continue;
-    draw_text(widget, cr, last = x, f->top + f->height + 2, 0.5, number);
+    spore_plot_text_draw(widget, cr, last = x, f->top + f->height + 2, 0.5, number);
   }
   count = spore_plot_ticks(f->low_y, f->high_y, tick);
   last = HUGE_VAL;
@@ -95,7 +87,7 @@ static void draw_axes(SporeLinePlot *self, cairo_t *cr, const Frame *f, const Gd
     cairo_line_to(cr, f->left + f->width, y);
     cairo_stroke(cr);
     if (last - y < 16) continue;
-    draw_text(widget, cr, f->left - 5, (last = y) - 8, 1, number);
+    spore_plot_text_draw(widget, cr, f->left - 5, (last = y) - 8, 1, number);
   }
 }
 
@@ -124,25 +116,18 @@ static void draw_lines(SporeLinePlot *self, cairo_t *cr, const Frame *f) {
   }
 }
 
-static double text_width(GtkWidget *widget, const char *text) {
-  int width;
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
-  pango_layout_get_pixel_size(layout, &width, NULL);
-  return width;
-}
-
 /* What is plotted, and the name of each line, in as many rows as it takes. Draws where cr is not NULL. Returns the
  * height, pixels. */
 static double lay_legend(SporeLinePlot *self, cairo_t *cr) {
   GtkWidget *widget = GTK_WIDGET(self);
   const SporePlotPanel *panel = self->panel;
   double right = gtk_widget_get_allocated_width(widget) - RIGHT, x = LEFT, y = 3;
-  if (cr) draw_text(widget, cr, x, y, 0, panel->y_label);
-  if (cr) draw_text(widget, cr, right, y, 1, panel->x_label);
-  x += text_width(widget, panel->y_label) + LEGEND_GAP;
-  double end = right - text_width(widget, panel->x_label) - LEGEND_GAP;
+  if (cr) spore_plot_text_draw(widget, cr, x, y, 0, panel->y_label);
+  if (cr) spore_plot_text_draw(widget, cr, right, y, 1, panel->x_label);
+  x += spore_plot_text_width(widget, panel->y_label) + LEGEND_GAP;
+  double end = right - spore_plot_text_width(widget, panel->x_label) - LEGEND_GAP;
   for (gsize l = 0; l < panel->line_count && panel->line_count > 1; l++) {
-    double width = SAMPLE + 4 + text_width(widget, panel->lines[l].label);
+    double width = SAMPLE + 4 + spore_plot_text_width(widget, panel->lines[l].label);
     if (x + width > end && x > LEFT) {
       x = LEFT;
       y += LEGEND_LINE;
@@ -153,7 +138,7 @@ static double lay_legend(SporeLinePlot *self, cairo_t *cr) {
       cairo_move_to(cr, x, y + 9);
       cairo_line_to(cr, x + SAMPLE, y + 9);
       cairo_stroke(cr);
-      draw_text(widget, cr, x + SAMPLE + 4, y, 0, panel->lines[l].label);
+      spore_plot_text_draw(widget, cr, x + SAMPLE + 4, y, 0, panel->lines[l].label);
     }
     x += width + LEGEND_GAP;
   }
@@ -167,7 +152,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   Frame f;
   gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
   if (!self->panel || !fit(self, &f, lay_legend(self, NULL) + 4)) {
-    draw_text(widget, cr, RIGHT, LEGEND_LINE, 0, self->invitation ? self->invitation : "");
+    spore_plot_text_draw(widget, cr, RIGHT, LEGEND_LINE, 0, self->invitation ? self->invitation : "");
     return FALSE;
   }
   draw_axes(self, cr, &f, &text);

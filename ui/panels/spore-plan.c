@@ -3,19 +3,24 @@
 
 #include <glib/gi18n.h>
 
+#include <string.h>
+
+#include "core/io/scene_xml.h"
 #include "ui/jobs/plan-work.h"
 #include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-job-bar.h"
 
 #define DELAY_MS 400 /* after the last change */
 
 struct _SporePlanPanel {
   GtkBox parent;
   GtkListStore *store;
-  GtkWidget *tree, *summary, *measure;
+  GtkWidget *tree, *summary, *measure, *copy, *save, *job_bar;
   SporeEditorDocument *document;
   guint timer;
   gboolean stale; /* the table is not of the scene as it is */
   SporeJob *job;  /* NULL: none runs */
+  char *csv;      /* the table that is shown; NULL: none */
 };
 
 G_DEFINE_FINAL_TYPE(SporePlanPanel, spore_plan, GTK_TYPE_BOX)
@@ -33,20 +38,17 @@ static void add_row(SporePlanPanel *self, const char *name, gboolean included, c
                                     COLUMN_WHY, why, COLUMN_SENSITIVE, included, -1);
 }
 
-static void add_stage(SporePlanPanel *self, const SporePlanStage *stage, gboolean measured) {
+static void add_stage(SporePlanPanel *self, const SporePlanStage *stage, const SporePlanWork *work) {
   g_autofree char *items = g_strdup_printf("%zu", stage->items);
-  double us = measured && stage->profile ? spore_profile_summary(stage->profile).median_us : -1;
   add_row(self, stage->name, stage->included, stage->included ? items : "", stage->included ? stage->estimate_us : -1,
-          us, stage->reason);
+          spore_plan_work_measured_us(work, stage), stage->reason);
 }
 
 /* What is left out saves something where it was measured. */
 static void add_left_out(SporePlanPanel *self, const SporePlanLeftOut *left_out, const SporePlanWork *work) {
   g_autofree char *why = NULL;
-  if (work->unpruned) {
-    double us = spore_pruning_saved_us(work->simulation->world, work->unpruned->world, left_out->stages);
-    if (us >= 0.01) why = g_strdup_printf(_("%s: saves %.2f µs a step"), left_out->reason, us);
-  }
+  double us = spore_plan_work_saved_us(work, left_out);
+  if (us >= 0.01) why = g_strdup_printf(_("%s: saves %.2f µs a step"), left_out->reason, us);
   add_row(self, left_out->what, FALSE, "", -1, -1, why ? why : left_out->reason);
 }
 
@@ -62,10 +64,24 @@ static char *summary_of(const SporePlanWork *work, double estimate_us, double dt
       1e6 * dt_s, pruning->unpruned_us, pruning->ratio, same);
 }
 
+/* Takes the table; NULL: none. */
+static void set_csv(SporePlanPanel *self, char *csv) {
+  g_free(self->csv);
+  self->csv = csv;
+  gtk_widget_set_sensitive(self->copy, csv != NULL);
+  gtk_widget_set_sensitive(self->save, csv != NULL);
+}
+
+static void clear(SporePlanPanel *self) {
+  gtk_list_store_clear(self->store);
+  set_csv(self, NULL);
+}
+
 static void show(SporePlanPanel *self, const SporePlanWork *work) {
   const SporePlan *plan = spore_world_plan(work->simulation->world);
-  gtk_list_store_clear(self->store);
-  for (gsize i = 0; i < plan->stage_count; i++) add_stage(self, &plan->stages[i], work->measured);
+  clear(self);
+  set_csv(self, spore_plan_work_csv(work));
+  for (gsize i = 0; i < plan->stage_count; i++) add_stage(self, &plan->stages[i], work);
   for (gsize i = 0; i < plan->left_out_count; i++) add_left_out(self, &plan->left_out[i], work);
   double dt_s = spore_object_number(spore_document_section(work->document, "solver"), "time_step");
   g_autofree char *summary = summary_of(work, plan->estimate_us, dt_s);
@@ -79,11 +95,14 @@ static void planned(SporeJob *job, gpointer data, const GError *error, gpointer 
   const SporePlanWork *work = data;
   if (self->job != job) return; /* of another scene */
   g_clear_object(&self->job);
+  spore_job_bar_set_job(SPORE_JOB_BAR(self->job_bar), NULL);
   gtk_widget_set_sensitive(self->measure, TRUE);
   if (self->timer) return; /* the scene has changed since, and is planned again */
   if (error) {
-    gtk_list_store_clear(self->store);
-    gtk_label_set_text(GTK_LABEL(self->summary), error->message);
+    clear(self);
+    gtk_label_set_text(GTK_LABEL(self->summary), g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED)
+                                                     ? _("Cancelled: nothing was planned")
+                                                     : error->message);
     return;
   }
   if (spore_document_revision(spore_editor_document_get(self->document)) == work->revision) show(self, work);
@@ -97,6 +116,7 @@ static void start(SporePlanPanel *self, gboolean measured) {
   self->job = spore_job_start(_("Planning the step"), spore_plan_work_run,
                               spore_plan_work_new(spore_editor_document_get(self->document), measured),
                               spore_plan_work_free, planned, G_OBJECT(self));
+  spore_job_bar_set_job(SPORE_JOB_BAR(self->job_bar), self->job);
 }
 
 static gboolean plan_again(gpointer data) {
@@ -120,6 +140,17 @@ static void measure_clicked(GtkButton *button, SporePlanPanel *self) {
   if (self->document && !self->job) start(self, TRUE);
 }
 
+static void copy_clicked(GtkButton *button, SporePlanPanel *self) {
+  GtkClipboard *clipboard = gtk_widget_get_clipboard(GTK_WIDGET(button), GDK_SELECTION_CLIPBOARD);
+  if (self->csv) gtk_clipboard_set_text(clipboard, self->csv, -1);
+}
+
+gboolean spore_plan_save(SporePlanPanel *self, const char *file, GError **error) {
+  if (!self->csv)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, file, _("there is no plan yet; open the tab Plan first"));
+  return spore_write_file(file, self->csv, strlen(self->csv), error);
+}
+
 static void release_document(SporePlanPanel *self) {
   g_clear_handle_id(&self->timer, g_source_remove);
   if (self->job) spore_job_cancel(self->job);
@@ -132,7 +163,9 @@ void spore_plan_set_document(SporePlanPanel *self, SporeEditorDocument *document
   release_document(self);
   self->document = g_object_ref(document);
   g_signal_connect_object(document, "changed", G_CALLBACK(queue), self, G_CONNECT_SWAPPED);
-  gtk_list_store_clear(self->store);
+  clear(self);
+  spore_job_bar_set_job(SPORE_JOB_BAR(self->job_bar), NULL);
+  gtk_widget_set_sensitive(self->measure, TRUE);
   queue(self);
 }
 
@@ -141,15 +174,26 @@ static void spore_plan_dispose(GObject *object) {
   G_OBJECT_CLASS(spore_plan_parent_class)->dispose(object);
 }
 
+static void spore_plan_finalize(GObject *object) {
+  g_free(SPORE_PLAN(object)->csv);
+  G_OBJECT_CLASS(spore_plan_parent_class)->finalize(object);
+}
+
 static void spore_plan_class_init(SporePlanPanelClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_plan_dispose;
+  G_OBJECT_CLASS(class)->finalize = spore_plan_finalize;
+  g_type_ensure(SPORE_TYPE_JOB_BAR);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-plan.ui");
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, store);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, tree);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, summary);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, measure);
+  gtk_widget_class_bind_template_child(widget, SporePlanPanel, copy);
+  gtk_widget_class_bind_template_child(widget, SporePlanPanel, save);
+  gtk_widget_class_bind_template_child(widget, SporePlanPanel, job_bar);
   gtk_widget_class_bind_template_callback(widget, measure_clicked);
+  gtk_widget_class_bind_template_callback(widget, copy_clicked);
 }
 
 static void spore_plan_init(SporePlanPanel *self) {

@@ -13,6 +13,8 @@ G_DECLARE_FINAL_TYPE(SporePlanPanel, spore_plan, SPORE, PLAN, GtkBox)
 
 /* The plan is made when the panel is shown, and again after the scene has changed. */
 void spore_plan_set_document(SporePlanPanel *self, SporeEditorDocument *document);
+/* Writes the table that is shown, as CSV. */
+gboolean spore_plan_save(SporePlanPanel *self, const char *file, GError **error);
 
 G_END_DECLS
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/author/edits.h"
+#include "ui/document/measured-facts.h"
 #include "ui/panels/report.h"
 
 #define NUMBER_CHARS 9
@@ -13,7 +14,7 @@
 
 struct _SporePropertyRow {
   GtkBox parent;
-  GtkWidget *label, *holder, *unit, *tag, *reset, *complaint;
+  GtkWidget *label, *holder, *unit, *tag, *reset, *measured, *complaint;
   GtkWidget *editor;
   SporeEditorDocument *document;
   char *path;
@@ -218,6 +219,20 @@ static void show_value(SporePropertyRow *self, const char *text) {
   }
 }
 
+/* Error and cost of the value, where a study measured them. */
+static void show_measured(SporePropertyRow *self) {
+  gboolean stale;
+  g_autofree char *hint = NULL;
+  g_autofree char *note = spore_measured_note(self->document, self->path, parameter_of(self)->name, &hint, &stale);
+  g_autofree char *text = note && stale ? g_strdup_printf(_("stale: %s"), note) : g_strdup(note);
+  GtkStyleContext *style = gtk_widget_get_style_context(self->measured);
+  if (stale) gtk_style_context_add_class(style, "stale");
+  else gtk_style_context_remove_class(style, "stale");
+  gtk_label_set_text(GTK_LABEL(self->measured), text ? text : "");
+  gtk_widget_set_tooltip_text(self->measured, hint);
+  gtk_widget_set_visible(self->measured, text != NULL);
+}
+
 void spore_property_row_refresh(SporePropertyRow *self) {
   g_autofree char *text = current_text(self);
   SporeObject *object = object_of(self);
@@ -232,6 +247,7 @@ void spore_property_row_refresh(SporePropertyRow *self) {
     g_free(self->shown);
     self->shown = g_steal_pointer(&text);
   }
+  show_measured(self);
   gtk_widget_set_opacity(self->reset, set ? 1 : 0);
   gtk_widget_set_sensitive(self->reset, set);
 }
@@ -290,6 +306,7 @@ static void spore_property_row_class_init(SporePropertyRowClass *class) {
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, unit);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, tag);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, reset);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, measured);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, complaint);
   gtk_widget_class_bind_template_callback(widget, reset_clicked);
 }

@@ -1,0 +1,53 @@
+/* Hashes what a run of a scene depends on. */
+#include "core/scene/run_hash.h"
+
+#include <string.h>
+
+#include "core/base/hash.h"
+
+static guint64 hash_text(guint64 hash, const char *text) {
+  return text ? spore_hash(hash, text, strlen(text) + 1) : spore_hash(hash, "", 1);
+}
+
+/* The content of the file that a track names. */
+static guint64 hash_file(guint64 hash, SporeDocument *document, const char *file) {
+  g_autoptr(GBytes) content = file ? spore_document_read_asset(document, file, NULL) : NULL;
+  gsize size = 0;
+  const void *bytes = content ? g_bytes_get_data(content, &size) : NULL;
+  return bytes ? spore_hash(hash, bytes, size) : hash_text(hash, file);
+}
+
+/* An asset counts by its content, anything else by its name. */
+static guint64 hash_reference(guint64 hash, SporeDocument *document, SporeObject *object, const char *property) {
+  SporeObject *target = spore_object_reference(object, property), *parent = target ? spore_object_parent(target) : NULL;
+  gboolean asset = parent && strcmp(spore_object_type(parent)->element, "assets") == 0;
+  g_autofree char *content = asset ? spore_document_asset_hash(document, target) : NULL;
+  return hash_text(hash, content ? content : spore_object_text(object, property));
+}
+
+static guint64 hash_property(guint64 hash, SporeDocument *document, SporeObject *object, guint property) {
+  const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
+  const SporeValue *value = spore_object_value(object, property);
+  if (parameter->type == SPORE_REFERENCE) return hash_reference(hash, document, object, parameter->name);
+  if (parameter->type == SPORE_FILE) return hash_file(hash, document, value->text);
+  return hash_text(spore_hash(hash, value->number, sizeof value->number), value->text);
+}
+
+static gboolean is_shown_alone(const char *element) {
+  static const char *const elements[] = {"meta", "units", "assets", "exercise", "visual", "camera", NULL};
+  return g_strv_contains(elements, element);
+}
+
+static guint64 hash_object(guint64 hash, SporeDocument *document, SporeObject *object) {
+  const SporeObjectType *type = spore_object_type(object);
+  if (is_shown_alone(type->element)) return hash;
+  hash = hash_text(hash, type->element);
+  for (guint i = 0; i < type->table->count; i++) hash = hash_property(hash, document, object, i);
+  for (guint i = 0; i < spore_object_child_count(object); i++)
+    hash = hash_object(hash, document, spore_object_child(object, i));
+  return hash_text(hash, "/"); /* no element has that name: the object ends */
+}
+
+guint64 spore_document_run_hash(SporeDocument *document) {
+  return hash_object(SPORE_HASH_INIT, document, spore_document_root(document));
+}
