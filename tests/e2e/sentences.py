@@ -599,7 +599,7 @@ RUN = [
      steps(held("linear_tetrahedra"), 100), steps(held("neo_hookean_tetrahedra"), 100)),
     ("another integrator than the scene's moves it, since that one failed", ["take a smaller time_step, or choose implicit_euler for it"],
      steps(flung("symplectic_euler", 8e-4, "5 5 5"), 400), steps(flung("symplectic_euler", 8e-5, "5 5 5"), 400)),
-    ("explicit steps made more than a hundredth of its energy out of nothing",
+    ("its steps made more than a hundredth of its energy out of nothing",
      ["take a smaller time_step, or choose implicit_euler for all but particles"],
      steps(orbit(0.01), 400), steps(orbit(0.005), 800)),
     ("an explicit step and two of half its size are more than a quarter of its speed apart", ["take a smaller time_step or more substeps"],

@@ -18,7 +18,7 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-#define GAIN 0.01 /* of the energy at work: explicit steps with more are not solved */
+#define GAIN 0.01 /* of the energy at work: steps that make more are not solved */
 /* A body that gains more goes on by implicit Euler. Below the largest stable step, the energy of a mode swings by a
  * factor (1 + h w / 2) / (1 - h w / 2), 14 at most where h w < 1.73 (Hairer, Lubich and Wanner, Acta Numerica 12, 2003,
  * section 1: the modified energy of Stoermer and Verlet). Methods that damp modes that they do not resolve let none
@@ -27,6 +27,7 @@
 #define GAIN_TO_MEND_DAMPED 2
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 #define FEW_STEPS 4
+#define FEW_LOOKS 16 /* steps after which a gain of explicit ones is believed */
 
 /* A method that damps in full makes no energy. */
 static bool may_gain(const SporeBody *body) {
@@ -125,6 +126,13 @@ static void mend(SporeWorld *world, uint32_t index) {
                      body->name, spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER]);
 }
 
+/* Share of the energy at work that steps may make. That of explicit steps swings at first, and explicit Euler makes
+ * m g^2 h t / 2 in free fall, 1 / (2 n) of what is at work after n steps. */
+static double bound_after(uint32_t steps, bool explicit) {
+  if (!explicit || steps >= SPORE_STEPS_BETWEEN_LOOKS) return GAIN;
+  return steps < FEW_LOOKS ? HUGE_VAL : GAIN * SPORE_STEPS_BETWEEN_LOOKS / steps;
+}
+
 static void look(SporeWorld *world) {
   SporeEnergyWatch *watch = &world->solve.watch;
   SporeEnergy now = spore_world_energy(world);
@@ -136,7 +144,7 @@ static void look(SporeWorld *world) {
   if (!(share > GAIN)) return;
   uint32_t body = offender(world);
   if (body == SPORE_NO_BODY) return;
-  if (watch->steps >= SPORE_STEPS_BETWEEN_LOOKS && is_explicit(&world->bodies[body]))
+  if (share > bound_after(watch->steps, is_explicit(&world->bodies[body])))
     spore_world_count_unsolved(world, body, SPORE_UNSOLVED_ENERGY, share);
   bool damped = spore_integrator(world->bodies[body].method.integrator)->damping == SPORE_DAMPING_FAST;
   if (share > (damped ? GAIN_TO_MEND_DAMPED : GAIN_TO_MEND)) mend(world, body);

@@ -34,7 +34,7 @@ static const struct {
                                N_("take a larger contact stiffness, or a smaller time_step"), "m/s"},
     [SPORE_UNSOLVED_LEFT_OUT] = {N_("contacts are left out, perhaps its own: there is no memory for them"),
                                  N_("close other programs, or use fewer or smaller spheres"), ""},
-    [SPORE_UNSOLVED_ENERGY] = {N_("explicit steps made more than a hundredth of its energy out of nothing"),
+    [SPORE_UNSOLVED_ENERGY] = {N_("its steps made more than a hundredth of its energy out of nothing"),
                                N_("take a smaller time_step, or choose implicit_euler for all but particles"), ""},
     [SPORE_UNSOLVED_HALVES] =
         {N_("an explicit step and two of half its size are more than a quarter of its speed apart"),
