@@ -96,6 +96,17 @@ def a_stiff_link_of_an_explicit_body_holds():
 
 
 @check
+def a_link_is_solved_as_far_as_doubles_go():
+    """A link of 1e11 N/m on soft tissue is solved; at 1e12 the last digit of a position is more than the tolerance, which is said."""
+    plate4 = pathlib.Path(__file__).resolve().parents[2] / "resources/scenes/plate4-deformed-ovary.spore"
+    arguments = ("run", plate4, "--steps", "300", "--set")
+    assert run(*arguments, "links/right_cord_1/stiffness=1e11")["monitor"]["unsolved"] == []
+    unsolved = run(*arguments, "links/right_cord_1/stiffness=1e12", status=(1,))["monitor"]["unsolved"]
+    other = sum(entry["steps"] for entry in unsolved if "rounding" not in entry["cause"])
+    assert other <= 3 and len(unsolved) > (other > 0), unsolved
+
+
+@check
 def a_heavy_ball_on_light_ones_makes_no_energy():
     """stack_verlet: the column stands or what did not hold is named; energy never grows, and nothing falls away."""
     answer = run("run", "stack_verlet.spore", "--steps", "1000", status=(0, 1))

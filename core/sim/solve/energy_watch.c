@@ -27,7 +27,7 @@
 #define GAIN_TO_MEND_DAMPED 2
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 #define FEW_STEPS 4
-#define FEW_LOOKS 16 /* steps after which a gain of explicit ones is believed */
+#define FEW_LOOKS 16 /* steps after which a gain is believed */
 
 /* A method that damps in full makes no energy. */
 static bool may_gain(const SporeBody *body) {
@@ -126,11 +126,11 @@ static void mend(SporeWorld *world, uint32_t index) {
                      body->name, spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER]);
 }
 
-/* Share of the energy at work that steps may make. That of explicit steps swings at first, and explicit Euler makes
- * m g^2 h t / 2 in free fall, 1 / (2 n) of what is at work after n steps. */
+/* Share of the energy at work that steps may make. It swings at first, and explicit Euler makes m g^2 h t / 2 in free
+ * fall, 1 / (2 n) of what is at work after n steps. */
 static double bound_after(uint32_t steps, bool explicit) {
-  if (!explicit || steps >= SPORE_STEPS_BETWEEN_LOOKS) return GAIN;
-  return steps < FEW_LOOKS ? HUGE_VAL : GAIN * SPORE_STEPS_BETWEEN_LOOKS / steps;
+  if (steps < FEW_LOOKS) return HUGE_VAL;
+  return explicit && steps < SPORE_STEPS_BETWEEN_LOOKS ? GAIN * SPORE_STEPS_BETWEEN_LOOKS / steps : GAIN;
 }
 
 static void look(SporeWorld *world) {

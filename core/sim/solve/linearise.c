@@ -382,5 +382,5 @@ double spore_island_system_rounding(void *data, double c, bool stiff_axes) {
     const SporeBody *body = spore_island_system_body(system, b, &site);
     sum += stiff_axes ? body->preconditioner.rounding_stiff : body->preconditioner.rounding_soft;
   }
-  return 4 * DBL_EPSILON * sqrt(sum) / c;
+  return DBL_EPSILON * sqrt(sum) / c;
 }
