@@ -25,12 +25,26 @@ static guint64 hash_reference(guint64 hash, SporeDocument *document, SporeObject
   return hash_text(hash, content ? content : spore_object_text(object, property));
 }
 
+/* The number of a property; a body's integrator and substeps that are left to the solver count as the solver's. A model
+ * of rates chooses them by itself then. */
+static void resolve(SporeDocument *document, SporeObject *object, const char *property, double number[3]) {
+  gboolean mechanical = strcmp(spore_object_type(object)->element, "mechanical") == 0;
+  gboolean integrator = strcmp(property, "integrator") == 0, substeps = strcmp(property, "substeps") == 0;
+  SporeObject *model = spore_object_child_count(object) > 0 ? spore_object_child(object, 0) : NULL;
+  if (!mechanical || !model || number[0] != 0 || !(integrator || substeps)) return;
+  if (spore_object_type(model)->model && spore_object_type(model)->model->rates) return;
+  number[0] = spore_object_number(spore_document_section(document, "solver"), property) + (integrator ? 1 : 0);
+}
+
 static guint64 hash_property(guint64 hash, SporeDocument *document, SporeObject *object, guint property) {
   const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
   const SporeValue *value = spore_object_value(object, property);
   if (parameter->type == SPORE_REFERENCE) return hash_reference(hash, document, object, parameter->name);
   if (parameter->type == SPORE_FILE) return hash_file(hash, document, value->text);
-  return hash_text(spore_hash(hash, value->number, sizeof value->number), value->text);
+  double number[3];
+  memcpy(number, value->number, sizeof number);
+  resolve(document, object, parameter->name, number);
+  return hash_text(spore_hash(hash, number, sizeof number), value->text);
 }
 
 static gboolean is_shown_alone(const char *element) {

@@ -117,6 +117,25 @@ static void test_apply(Fixture *fixture, gconstpointer data) {
   g_assert_cmpstr(after, ==, before);
 }
 
+/* The settings that the scene has were measured, too: its own method leaves the integrator to the solver. */
+static void test_own_point(Fixture *fixture, gconstpointer data) {
+  const SporeAccuracyStudy *of = study(fixture);
+  gsize own = find(of, SPORE_INTEGRATOR_IMPLICIT_EULER, 0.001);
+  g_assert_cmpfloat(of->report->points[own].dt_s, ==, 0.001);
+  g_assert_cmpint(spore_editor_document_get_point(fixture->editor), ==, own);
+  set(fixture, "bodies/ball/mechanical", "integrator", "implicit_euler"); /* says the same */
+  g_assert_cmpint(spore_editor_document_get_point(fixture->editor), ==, own);
+  set(fixture, "bodies/ball/mechanical", "integrator", "rk4");
+  g_assert_cmpint(spore_editor_document_get_point(fixture->editor), ==, -1);
+  set(fixture, "bodies/ball/mechanical", "integrator", "verlet");
+  g_assert_cmpint(spore_editor_document_get_point(fixture->editor), ==, -1); /* the solver says another method still */
+  set(fixture, "bodies/ball/mechanical", "integrator", NULL);
+  set(fixture, "solver", "integrator", "verlet");
+  g_assert_cmpint(spore_editor_document_get_point(fixture->editor), ==, find(of, SPORE_INTEGRATOR_VERLET, 0.001));
+  set(fixture, "solver", "substeps", "2");
+  g_assert_false(spore_editor_document_study_holds(fixture->editor));
+}
+
 /* The scene with the point runs as the study ran it, to the bit. */
 static void test_apply_is_what_was_measured(Fixture *fixture, gconstpointer data) {
   const SporeAccuracyStudy *of = study(fixture);
@@ -359,6 +378,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
 #define ADD(name, test) g_test_add("/accuracy/" name, Fixture, NULL, set_up, test, tear_down)
   ADD("apply", test_apply);
+  ADD("own_point", test_own_point);
   ADD("apply_is_what_was_measured", test_apply_is_what_was_measured);
   ADD("stale", test_stale);
   ADD("run_hash", test_run_hash);

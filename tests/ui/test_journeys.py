@@ -1368,9 +1368,77 @@ def plan_of_the_step():
         editor.find("label", r"^A step: about \d+ µs of")
         editor.press(editor.find("push button", "^Measure$"))
         editor.find("label", r"with nothing left out [\d.]+ µs \([\d.]+ times\), the same to the bit$")
+        table = folder("saved") / "plan.csv"
+        editor.act("save-plan", "s", str(table))
+        ui.wait(table.exists, "the table of the plan")
+        with open(table) as rows:
+            stages = {row["what"]: row for row in csv.DictReader(rows)}
+        assert float(stages["integrate"]["measured_us"]) > 0, stages["integrate"]
         editor.act("add-pin")
         editor.find("table cell", "^links other than pins$")
         editor.find("label", r"^A step: about \d+ µs of")
+
+
+def choose_short_study(editor):
+    """Two methods over a twentieth of a second."""
+    editor.press(editor.find("radio button", "^Accuracy$"))
+    editor.press(editor.find("toggle button", "^Options$"))
+    editor.set_number(editor.find("spin button", "^Simulated time$"), 0.05)
+    for name in ("Implicit Euler", "Verlet"):
+        editor.press(editor.find("check box", f"^{name}$"))
+    editor.press(editor.find("toggle button", "^Options$"))
+
+
+@check
+def study_is_applied_and_remembered():
+    """the tab Accuracy measures methods and steps, gives the scene a point of them as one step, which the scene remembers when it is saved, and makes the page."""
+    with start(SCENES / "minimal.spore") as editor:
+        choose_short_study(editor)
+        editor.find("label", "^Measure what each method and step costs")
+        editor.press(editor.find("push button", "^Measure$"))
+        sentence = editor.find("label", "^implicit_euler at 1 ms: .* % off").get_name()
+        figures = sentence.removeprefix("implicit_euler at 1 ms: ").partition(";")[0]
+        beside = lambda: sum(node.get_name() == figures for node in editor.nodes("label", showing=False))
+        ui.wait(lambda: beside() >= 4, "the figures of the scene beside step, integrator and solvers")
+        editor.act("choose-point", "u", 1)
+        point = editor.find("label", r"^verlet at 4 ms: .* ms a step, .* times real time").get_name()
+        editor.press(editor.find("push button", "^Apply$"))
+        measured = editor.find("label", r"^measured: .* \(verlet at 4 ms\)$").get_name()
+        figures = measured.removeprefix("measured: ").partition(" (")[0]
+        assert figures in point, (measured, point)
+        ui.wait(lambda: beside() >= 4, "the point's figures beside step, integrator and solvers")
+        assert 'time_step="0.004"' in saved(editor, "studied")
+        editor.act("undo")
+        ui.wait(lambda: not editor.look("label", "^measured: "), "what was measured to go with the point")
+        assert 'time_step="0.001"' in saved(editor, "unstudied")
+        editor.act("redo")
+        page = folder("saved") / "study.html"
+        editor.act("save-study", "s", str(page))
+        ui.wait(page.exists, "the page")
+        assert "<svg" in page.read_text() and sentence.split(";")[0] in page.read_text()
+        saved(editor, "studied")
+    with start(folder("saved") / "studied" / "scene.spore") as editor:
+        assert editor.find("label", "^measured: ").get_name() == measured
+        editor.act("set-property", "(sss)", ("environment", "gravity", "0 -5 0"))
+        editor.find("label", f"^{re.escape(measured)}; stale: the scene has changed since$")
+
+
+@check
+def study_is_cancelled():
+    """a study that would take hours tells how far it is, and is over when it is cancelled; another one can begin."""
+    with start(SCENES / "minimal.spore") as editor:
+        choose_short_study(editor)
+        editor.press(editor.find("toggle button", "^Options$"))
+        editor.set_number(editor.find("spin button", "^Simulated time$"), 10000)
+        editor.press(editor.find("check box", "^Cut nothing$"))
+        editor.press(editor.find("toggle button", "^Options$"))
+        editor.press(editor.find("push button", "^Measure$"))
+        ui.wait(lambda: not editor.enabled("measure-accuracy"), "the study to begin")
+        editor.find("label", "^Running the scene by several methods")
+        editor.press(editor.find("push button", "^Cancel$"))
+        editor.find("label", "^Cancelled: nothing was measured$")
+        ui.wait(lambda: editor.enabled("measure-accuracy"), "the tab to be ready again")
+        assert not editor.enabled("apply-point") and not editor.enabled("save-study")
 
 
 @check
