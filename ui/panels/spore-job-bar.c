@@ -47,7 +47,8 @@ static void spore_job_bar_init(SporeJobBar *self) {
   gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(self->bar), TRUE);
   gtk_progress_bar_set_ellipsize(GTK_PROGRESS_BAR(self->bar), PANGO_ELLIPSIZE_END);
   gtk_widget_set_valign(self->bar, GTK_ALIGN_CENTER);
-  gtk_box_set_spacing(GTK_BOX(self), 6);
+  gtk_style_context_add_class(gtk_widget_get_style_context(GTK_WIDGET(self)), "job-bar");
+  gtk_box_set_spacing(GTK_BOX(self), 4);
   gtk_box_pack_start(GTK_BOX(self), self->bar, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(self), cancel, FALSE, FALSE, 0);
   gtk_widget_show(self->bar);

@@ -39,8 +39,8 @@ char *spore_precision_plot_describe(const SporeAccuracyReport *report, gssize in
   g_autofree char *figures = spore_accuracy_point_figures(report, point);
   const char *remark = spore_accuracy_remark(point);
   g_autofree char *pace = g_strdup_printf(_("%.3g times real time"), point->real_time_factor);
-  return g_strdup_printf("%s: %s, %s%s%s", name, figures, pace, point->stable && *remark ? "; " : "",
-                         point->stable ? remark : "");
+  return point->stable && *remark ? g_strdup_printf(_("%s: %s, %s; %s"), name, figures, pace, remark)
+                                  : g_strdup_printf(_("%s: %s, %s"), name, figures, pace);
 }
 
 /* Layout. */
@@ -51,13 +51,14 @@ typedef struct {
   SporePlotAxis x, y;
 } View;
 
-/* The names of the lines, in as many rows as it takes. Draws where cr is not NULL. Returns the height. */
-static double lay_legend(SporePrecisionPlot *self, cairo_t *cr);
+/* The names of the lines below the panels, in as many rows as it takes. Draws where cr is not NULL, from y on. Returns
+ * the height. */
+static double lay_legend(SporePrecisionPlot *self, cairo_t *cr, double y);
 
 /* Fills in the views. Returns their number. */
 static gsize lay_out(SporePrecisionPlot *self, View views[PANELS]) {
   double width = gtk_widget_get_allocated_width(GTK_WIDGET(self));
-  double height = gtk_widget_get_allocated_height(GTK_WIDGET(self)), top = lay_legend(self, NULL) + LINE + 4;
+  double height = gtk_widget_get_allocated_height(GTK_WIDGET(self)) - lay_legend(self, NULL, 0), top = LINE + 4;
   gsize count = width >= PANELS * LEAST_PANEL ? PANELS : 1, shown = 0;
   for (gsize p = PANELS - count; p < PANELS; p++) {
     double left = width * (double)shown / (double)count;
@@ -126,10 +127,10 @@ static void set_line(cairo_t *cr, gsize line) {
   cairo_set_dash(cr, style->dash, (int)style->dash_count, 0);
 }
 
-static double lay_legend(SporePrecisionPlot *self, cairo_t *cr) {
+static double lay_legend(SporePrecisionPlot *self, cairo_t *cr, double y) {
   GtkWidget *widget = GTK_WIDGET(self);
   const SporePlotPanel *panel = &self->plot.panels[0];
-  double right = gtk_widget_get_allocated_width(widget) - RIGHT, x = RIGHT, y = 1;
+  double right = gtk_widget_get_allocated_width(widget) - RIGHT, x = RIGHT, top = y;
   for (gsize l = 0; l < panel->line_count; l++) {
     double width = SAMPLE + 4 + spore_plot_text_width(widget, panel->lines[l].label);
     if (x + width > right && x > RIGHT) {
@@ -147,7 +148,7 @@ static double lay_legend(SporePrecisionPlot *self, cairo_t *cr) {
     }
     x += width + LEGEND_GAP;
   }
-  return y + LINE;
+  return y + LINE - top;
 }
 
 static void draw_shade(GtkWidget *widget, cairo_t *cr, const View *view, const GdkRGBA *text) {
@@ -261,7 +262,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   if (!self->report) return FALSE;
   gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
   if (!gtk_style_context_lookup_color(style, "theme_selected_bg_color", &accent)) accent = text;
-  lay_legend(self, cr);
+  lay_legend(self, cr, gtk_widget_get_allocated_height(widget) - lay_legend(self, NULL, 0));
   for (gsize v = 0, count = lay_out(self, views); v < count; v++) {
     draw_shade(widget, cr, &views[v], &text);
     draw_axes(widget, cr, &views[v], v == 0, &text);
@@ -364,7 +365,7 @@ static void spore_precision_plot_class_init(SporePrecisionPlotClass *class) {
 
 static void spore_precision_plot_init(SporePrecisionPlot *self) {
   self->selected = self->current = -1;
-  gtk_widget_set_size_request(GTK_WIDGET(self), 200, 190);
+  gtk_widget_set_size_request(GTK_WIDGET(self), 200, 210);
   gtk_widget_set_can_focus(GTK_WIDGET(self), TRUE);
   gtk_widget_set_has_tooltip(GTK_WIDGET(self), TRUE);
   gtk_widget_add_events(GTK_WIDGET(self), GDK_BUTTON_PRESS_MASK | GDK_KEY_PRESS_MASK | GDK_POINTER_MOTION_MASK);
