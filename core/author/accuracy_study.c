@@ -133,13 +133,6 @@ static char *date_of(const SporeAccuracyStudy *study) {
   return g_date_time_format(time, "%Y-%m-%dT%H:%M:%SZ");
 }
 
-static char *reference_name(const SporeAccuracyReport *report) {
-  const SporeAccuracyReference *reference = &report->reference;
-  char step[G_ASCII_DTOSTR_BUF_SIZE];
-  g_ascii_formatd(step, sizeof step, "%.4g", reference->dt_s);
-  return g_strdup_printf("%s %s", report->methods[reference->method].label, step);
-}
-
 /* A new element, so that nothing of an older study stays. */
 static SporeObject *renew(SporeDocument *document, GError **error) {
   SporeObject *meta = spore_document_section(document, "meta"), *old = spore_object_child_of(meta, "measured");
@@ -151,8 +144,8 @@ static gboolean remember(const SporeAccuracyStudy *study, gsize index, SporeDocu
   const SporeAccuracyReport *report = study->report;
   const SporeAccuracyPoint *point = &report->points[index];
   SporeObject *measured = renew(document, error);
-  g_autofree char *date = date_of(study), *reference = reference_name(report),
-                  *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", study->hashes[index]);
+  const SporeAccuracyReference *reference = &report->reference;
+  g_autofree char *date = date_of(study), *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", study->hashes[index]);
   return measured && set_text(document, measured, "method", report->methods[point->method].label, error) &&
          set_step(document, measured, point->dt_s, error) &&
          set_text(document, measured, "level", point->level < 0 ? NULL : spore_lod_names[point->level], error) &&
@@ -161,8 +154,9 @@ static gboolean remember(const SporeAccuracyStudy *study, gsize index, SporeDocu
          set_figure(document, measured, "floor", report->floor, error) &&
          set_figure(document, measured, "step_cost", 1e-6 * point->us_per_step, error) &&
          (!report->statistics || set_text(document, measured, "statistics", "true", error)) &&
-         set_text(document, measured, "reference", reference, error) &&
-         set_figure(document, measured, "reference_error", report->reference.own_error, error) &&
+         set_text(document, measured, "reference", report->methods[reference->method].label, error) &&
+         set_figure(document, measured, "reference_step", reference->dt_s, error) &&
+         set_figure(document, measured, "reference_error", reference->own_error, error) &&
          set_figure(document, measured, "start", report->start_s, error) &&
          set_figure(document, measured, "duration", report->time_s, error) &&
          set_text(document, measured, "date", date, error) && set_text(document, measured, "scene_hash", hash, error);
@@ -242,7 +236,8 @@ char *spore_measured_source(const SporeDocument *document) {
                          spore_object_number(measured, "start"));
   g_string_append_c(text, '\n');
   if (reference) {
-    g_string_append_printf(text, _("against %s s, itself %.2g %% off at most"), reference,
+    g_string_append_printf(text, _("against %s at %.3g ms, itself %.2g %% off at most"), reference,
+                           1e3 * spore_object_number(measured, "reference_step"),
                            100 * spore_object_number(measured, "reference_error"));
     g_string_append_c(text, '\n');
   }

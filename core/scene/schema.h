@@ -18,7 +18,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *
  *   spore(version)
  *     meta(title author description licence) > measured(method time_step level body error floor step_cost statistics
- *                                              reference reference_error start duration date scene_hash)
+ *                                              reference reference_step reference_error start duration date scene_hash)
  *     units(length)                        how lengths are shown to people; the file is SI
  *     environment(gravity)
  *     solver(spore_solver_parameters)

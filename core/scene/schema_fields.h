@@ -17,7 +17,8 @@ typedef struct SporeMetaFields {
 
 typedef struct SporeMeasuredFields {
   const char *method, *level, *body, *reference, *date, *scene_hash;
-  double time_step, error, floor, step_cost, reference_error, start, duration; /* s; errors: parts of a length */
+  double time_step, step_cost, reference_step, start, duration; /* s */
+  double error, floor, reference_error;                         /* parts of a body's length */
   bool statistics;
 } SporeMeasuredFields;
 
