@@ -9,6 +9,7 @@
 #include "core/author/accuracy_methods.h"
 #include "core/author/accuracy_page.h"
 #include "core/author/accuracy_study.h"
+#include "core/author/sphere_sets.h"
 #include "core/base/number.h"
 #include "core/io/scene_xml.h"
 
@@ -16,16 +17,16 @@
 #define LONGEST_S 1e4
 
 typedef struct Request {
-  char *body, *methods, *nonlinear, *linear, *dt, *levels, *time, *seconds;
+  char *body, *methods, *nonlinear, *linear, *dt, *levels, *spheres, *time, *seconds;
   char *svg, *png, *csv, *html;
   gboolean full;
   SporeSceneOptions scene;
 } Request;
 
 static void clear_request(Request *request) {
-  char **const texts[] = {&request->body, &request->methods, &request->nonlinear, &request->linear,
-                          &request->dt,   &request->levels,  &request->time,      &request->seconds,
-                          &request->svg,  &request->png,     &request->csv,       &request->html};
+  char **const texts[] = {&request->body, &request->methods, &request->nonlinear, &request->linear,  &request->spheres,
+                          &request->dt,   &request->levels,  &request->time,      &request->seconds, &request->svg,
+                          &request->png,  &request->csv,     &request->html};
   for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_clear_pointer(texts[i], g_free);
   spore_scene_options_clear(&request->scene);
 }
@@ -89,6 +90,32 @@ static gboolean read_steps(const char *text, SporeAccuracyOptions *options, GErr
                              text, STEPS_MOST);
   options->dt_low_s = number[0], options->dt_high_s = number[1], options->dt_count = (gsize)number[2];
   return TRUE;
+}
+
+static int compare_numbers(gconstpointer a, gconstpointer b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Factors with commas between; text NULL: none. */
+static gboolean read_factors(const char *text, GArray *factors, GError **error) {
+  g_auto(GStrv) words = g_strsplit(text ? text : "", ",", -1);
+  gboolean good = TRUE;
+  for (char **word = words; *word && good; word++) {
+    double factor = 0;
+    gsize length = strlen(g_strstrip(*word));
+    good = length > 0 && spore_number_read(*word, length, &factor) == length && factor >= SPORE_SPHERE_FACTOR_LEAST &&
+           factor <= SPORE_SPHERE_FACTOR_MOST;
+    g_array_append_val(factors, factor);
+  }
+  g_array_sort(factors, compare_numbers);
+  for (guint i = 1; i < factors->len; i++)
+    good = good && g_array_index(factors, double, i) > g_array_index(factors, double, i - 1);
+  if (good && (!text || factors->len >= 2)) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, "--spheres",
+                           _("'%s' is no list of factors; expected at least two different ones, %g to %g, such as "
+                             "0.5,1,2"),
+                           text, SPORE_SPHERE_FACTOR_LEAST, SPORE_SPHERE_FACTOR_MOST);
 }
 
 /* A time of an option within its range; text NULL: *seconds stays. */
@@ -177,11 +204,14 @@ static gboolean study(SporeCli *cli, const char *file, const Request *request, S
                       GError **error) {
   g_autoptr(SporeRun) run = spore_run_open(cli, file, &request->scene, 1, error);
   g_autoptr(GArray) levels = g_array_new(FALSE, FALSE, sizeof(int));
-  if (!run || !check_body(run, request->body, error) ||
+  g_autoptr(GArray) factors = g_array_new(FALSE, FALSE, sizeof(double));
+  if (!read_factors(request->spheres, factors, error) || !run || !check_body(run, request->body, error) ||
       !read_names("--levels", request->levels, spore_lod_names, levels, error) || !check_levels(run, levels, error))
     return FALSE;
   options->levels = (const int *)(gconstpointer)levels->data;
   options->level_count = levels->len;
+  options->spheres = (const double *)(gconstpointer)factors->data;
+  options->sphere_count = factors->len;
   const SporeTrack *input = request->scene.input ? &run->input : NULL;
   SporeAccuracyStudy *found =
       spore_accuracy_study_new(run->document, run->simulation, run->pool, input, options, error);
@@ -227,6 +257,8 @@ int spore_command_accuracy(SporeCli *cli, int argc, char **argv) {
       {"linear", 0, 0, G_OPTION_ARG_STRING, &r.linear, N_("Each implicit method with each of these linear solvers"),
        "A,B"},
       {"levels", 0, 0, G_OPTION_ARG_STRING, &r.levels, N_("Levels of detail: coarse,medium,fine"), "A,B"},
+      {"spheres", 0, 0, G_OPTION_ARG_STRING, &r.spheres,
+       N_("What fewer spheres give away: generate the sets anew, this many times as large: 0.5,1,2"), "A,B"},
       {"time", 't', 0, G_OPTION_ARG_STRING, &r.time, N_("Simulated time of a run (default 1)"), "S"},
       {"full", 0, 0, G_OPTION_ARG_NONE, &r.full, N_("Cut nothing to fit the time"), NULL},
       {"seconds", 0, 0, G_OPTION_ARG_STRING, &r.seconds,

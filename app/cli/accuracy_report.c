@@ -30,6 +30,11 @@ const SporeReportMember spore_accuracy_members[] = {
      N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
         "smooth), converges (false: at these steps smaller ones do not help, while another method is much nearer)")},
     {"levels", N_("with --levels: level, error (of space: by the reference's method)")},
+    {"spheres",
+     N_("with --spheres: factor, count (of the whole scene), and against the finest set, by the reference's method: "
+        "force (of the contacts on each body) and depth (of the deepest contact), as parts of what they are there "
+        "(null: nothing touches), error (of places). The row of the finest set is itself at half the step: what is "
+        "nearer cannot be told")},
     {"pareto", N_("indices in points: no other point has a smaller error at a smaller cost, ascending by cost")},
     {"cut", N_("what was cut to fit the time, or could not be had, in words; --full cuts nothing")},
     {"sentence", N_("what it comes to, in words")},
@@ -125,6 +130,17 @@ static void report_lists(SporeCli *cli, const SporeAccuracyReport *report) {
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);
+  spore_cli_open_array(cli, "spheres");
+  for (gsize i = 0; i < report->sphere_count; i++) {
+    spore_cli_open(cli, NULL);
+    spore_cli_number(cli, "factor", report->spheres[i].factor);
+    spore_cli_count(cli, "count", (gint64)report->spheres[i].count);
+    spore_cli_number(cli, "force", report->spheres[i].force);
+    spore_cli_number(cli, "depth", report->spheres[i].depth);
+    spore_cli_number(cli, "error", report->spheres[i].error);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
   spore_cli_open_array(cli, "pareto");
   for (guint i = 0; i < set->len; i++) json_builder_add_int_value(cli->report, g_array_index(set, guint, i));
   spore_cli_close_array(cli);
@@ -165,10 +181,11 @@ static void say_points(SporeCli *cli, const SporeAccuracyReport *report) {
 }
 
 void spore_accuracy_tell(SporeCli *cli, const char *scene, const SporeAccuracyReport *report) {
-  g_autofree char *head = spore_accuracy_describe(report), *tail = spore_accuracy_describe_methods(report);
+  g_autofree char *head = spore_accuracy_describe(report), *tail = spore_accuracy_describe_methods(report),
+                  *spheres = spore_accuracy_describe_spheres(report);
   report_stretch(cli, scene, report);
   report_lists(cli, report);
   spore_cli_say(cli, "%s", head);
   say_points(cli, report);
-  spore_cli_say(cli, "%s%s\n", tail, report->sentence);
+  spore_cli_say(cli, "%s%s%s\n", spheres, tail, report->sentence);
 }

@@ -47,7 +47,7 @@ char *spore_accuracy_describe(const SporeAccuracyReport *report) {
                              "which spread by %.2g %%\n"),
                            100 * report->growth, 100 * report->spread);
   g_string_append_printf(text, _("errors below %.2g %% cannot be told from the reference's\n"), 100 * report->floor);
-  if (!isnan(reference->gap))
+  if (reference->gap > 0)
     g_string_append_printf(text, _("links part by %.2g mm at most in the reference\n"), 1e3 * reference->gap);
   if (!isnan(reference->line_stretch))
     g_string_append_printf(text, _("lines stretch by %.2g %% at most in the reference\n"),
@@ -76,6 +76,22 @@ char *spore_accuracy_describe_methods(const SporeAccuracyReport *report) {
     g_string_append_printf(text, _("level %s: %.2g %% off in space\n"),
                            spore_accuracy_level_name(report->levels[i].level), 100 * report->levels[i].error);
   for (gsize i = 0; i < report->cut_count; i++) g_string_append_printf(text, _("cut: %s\n"), report->cuts[i]);
+  return g_string_free(text, FALSE);
+}
+
+char *spore_accuracy_describe_spheres(const SporeAccuracyReport *report) {
+  GString *text = g_string_new(NULL);
+  for (gsize i = 0; i < report->sphere_count; i++) {
+    const SporeAccuracySpheres *spheres = &report->spheres[i];
+    gboolean finest = i + 1 == report->sphere_count;
+    g_string_append_printf(text, _("%zu spheres (%g times): "), spheres->count, spheres->factor);
+    if (isnan(spheres->force)) g_string_append(text, _("nothing touches"));
+    else
+      g_string_append_printf(text, _("contact forces %.2g %% off, depth %.2g %%"), 100 * spheres->force,
+                             100 * spheres->depth);
+    g_string_append_printf(text, _(", places %.2g %%"), 100 * spheres->error);
+    g_string_append(text, finest ? _(": by the steps alone, the others are measured from it\n") : "\n");
+  }
   return g_string_free(text, FALSE);
 }
 
@@ -161,6 +177,23 @@ static void append_table(GString *page, const SporeAccuracyReport *report) {
   g_string_append(page, "</table>\n");
 }
 
+static void append_spheres(GString *page, const SporeAccuracyReport *report) {
+  const char *const heads[] = {_("times"), _("spheres"), _("force %"), _("depth %"), _("places %")};
+  if (report->sphere_count == 0) return;
+  g_string_append(page, "<table>\n<tr>");
+  for (gsize i = 0; i < G_N_ELEMENTS(heads); i++) g_string_append_printf(page, "<th>%s</th>", heads[i]);
+  g_string_append(page, "</tr>\n");
+  for (gsize i = 0; i < report->sphere_count; i++) {
+    const SporeAccuracySpheres *spheres = &report->spheres[i];
+    g_string_append_printf(page, "<tr><td>%g</td><td>%zu</td>", spheres->factor, spheres->count);
+    append_known(page, spheres->force, 100);
+    append_known(page, spheres->depth, 100);
+    append_known(page, spheres->error, 100);
+    g_string_append(page, "</tr>\n");
+  }
+  g_string_append(page, "</table>\n");
+}
+
 /* Lines of a text as paragraphs. */
 static void append_lines(GString *page, const char *text) {
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
@@ -175,7 +208,7 @@ char *spore_accuracy_html(const char *scene, const SporeAccuracyReport *report, 
   if (!svg) return NULL;
   g_autofree char *name = g_path_get_basename(scene), *title = g_strdup_printf(_("Accuracy of %s"), name);
   g_autofree char *safe = g_markup_escape_text(title, -1), *head = spore_accuracy_describe(report),
-                  *tail = spore_accuracy_describe_methods(report);
+                  *tail = spore_accuracy_describe_methods(report), *spheres = spore_accuracy_describe_spheres(report);
   const char *picture = strstr(svg, "<svg");
   GString *page = g_string_new("<!DOCTYPE html>\n<html>\n<head>\n<meta charset=\"utf-8\">\n");
   g_string_append_printf(page, "<title>%s</title>\n", safe);
@@ -190,6 +223,8 @@ char *spore_accuracy_html(const char *scene, const SporeAccuracyReport *report, 
   g_string_append(page, picture ? picture : "");
   append_lines(page, head);
   append_table(page, report);
+  append_spheres(page, report);
+  append_lines(page, spheres);
   append_lines(page, tail);
   g_string_append(page, "</body>\n</html>\n");
   return g_string_free(page, FALSE);

@@ -18,6 +18,9 @@ char *spore_accuracy_describe(const SporeAccuracyReport *report);
 /* Orders of the methods, errors of the levels, and what was cut, one a line. */
 char *spore_accuracy_describe_methods(const SporeAccuracyReport *report);
 
+/* What each set of spheres gives away, one a line; "" where one set alone was asked for. */
+char *spore_accuracy_describe_spheres(const SporeAccuracyReport *report);
+
 /* A point a line, SI units, numbers in the C locale. */
 char *spore_accuracy_csv(const SporeAccuracyReport *report);
 /* The work-precision plot as SVG, and one self-contained HTML page with plot, sentences and table. scene: file of the

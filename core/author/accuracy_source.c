@@ -3,9 +3,18 @@
 
 #include <glib/gi18n.h>
 
+#include "core/author/sphere_sets.h"
 #include "core/author/varied_worlds.h"
 
+/* The document with another number of spheres. */
+typedef struct SphereVariant {
+  double factor;
+  SporeDocument *document;
+} SphereVariant;
+
 struct SporeAccuracySource {
+  SporeDocument *document;
+  GArray *spheres; /* SphereVariant */
   SporeVariedWorlds worlds;
   const SporeSimulation *simulation; /* of the document as it is */
   const SporeTrack *input;
@@ -44,6 +53,14 @@ static gboolean shift(SporeAccuracySource *source, double start_s, SporeError *e
 /* The name of a choice; NULL: the scene's. */
 static const char *name_of(const char *const *names, int choice) { return choice < 0 ? NULL : names[choice]; }
 
+static SporeDocument *document_with(const SporeAccuracySource *source, double factor) {
+  for (guint i = 0; i < source->spheres->len; i++) {
+    const SphereVariant *variant = &g_array_index(source->spheres, SphereVariant, i);
+    if (variant->factor == factor) return variant->document;
+  }
+  return source->document;
+}
+
 static SporeWorld *make(void *data, const SporeAccuracyWorld *world, SporeError *error) {
   SporeAccuracySource *source = data;
   const SporeAccuracyMethod *method = world->method;
@@ -57,6 +74,7 @@ static SporeWorld *make(void *data, const SporeAccuracyWorld *world, SporeError 
                                     .awake = world->awake};
   if (!shift(source, world->start_s, error)) return NULL;
   const SporeTrack *input = source->shifted.channel_count ? &source->shifted : source->input;
+  source->worlds.document = document_with(source, world->spheres);
   return spore_varied_worlds_make(&source->worlds, &variation, input, error);
 }
 
@@ -78,8 +96,7 @@ static SporeIntegratorKind own_integrator(const SporeAccuracySource *source) {
     name = method.integrator.name;
   }
   if (mixed || !name)
-    return (SporeIntegratorKind)spore_object_number(spore_document_section(source->worlds.document, "solver"),
-                                                    "integrator");
+    return (SporeIntegratorKind)spore_object_number(spore_document_section(source->document, "solver"), "integrator");
   int kind = 0;
   while (!g_str_equal(spore_integrator_names[kind], name)) kind++;
   return (SporeIntegratorKind)kind;
@@ -90,6 +107,8 @@ SporeAccuracySource *spore_accuracy_source_new(SporeDocument *document, const Sp
                                                const char *body) {
   SporeAccuracySource *source = g_new0(SporeAccuracySource, 1);
   spore_varied_worlds_init(&source->worlds, document, pool, cancel);
+  source->document = document;
+  source->spheres = g_array_new(FALSE, FALSE, sizeof(SphereVariant));
   source->simulation = simulation;
   source->input = input;
   source->body = body;
@@ -99,11 +118,25 @@ SporeAccuracySource *spore_accuracy_source_new(SporeDocument *document, const Sp
 void spore_accuracy_source_free(SporeAccuracySource *source) {
   spore_varied_worlds_clear(&source->worlds);
   spore_track_clear(&source->shifted);
+  for (guint i = 0; i < source->spheres->len; i++)
+    spore_document_free(g_array_index(source->spheres, SphereVariant, i).document);
+  g_array_unref(source->spheres);
   g_free(source);
 }
 
+gboolean spore_accuracy_source_vary_spheres(SporeAccuracySource *source, const double *factors, gsize count,
+                                            const SporeProgress *progress, GError **error) {
+  for (gsize i = 0; i < count; i++) {
+    SphereVariant variant = {factors[i], NULL};
+    variant.document = spore_sphere_sets_vary(source->document, source->body, factors[i], progress, error);
+    if (!variant.document) return FALSE;
+    g_array_append_val(source->spheres, variant);
+  }
+  return TRUE;
+}
+
 SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source) {
-  SporeDocument *document = source->worlds.document;
+  SporeDocument *document = source->document;
   return (SporeAccuracyScene){.data = source,
                               .make = make,
                               .drop = drop,

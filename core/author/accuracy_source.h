@@ -15,6 +15,10 @@ SporeAccuracySource *spore_accuracy_source_new(SporeDocument *document, const Sp
                                                SporePool *pool, const SporeTrack *input, const SporeCancel *cancel,
                                                const char *body);
 void spore_accuracy_source_free(SporeAccuracySource *source);
+/* Makes the sets of spheres that the study asks for by these factors: core/author/sphere_sets.h. FALSE with a GError.
+ */
+gboolean spore_accuracy_source_vary_spheres(SporeAccuracySource *source, const double *factors, gsize count,
+                                            const SporeProgress *progress, GError **error);
 /* The study's way to the document, valid as long as the source is. */
 SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source);
 

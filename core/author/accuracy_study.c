@@ -69,8 +69,11 @@ SporeAccuracyStudy *spore_accuracy_study_new(SporeDocument *document, const Spor
   SporeAccuracySource *source =
       spore_accuracy_source_new(document, simulation, pool, input, options->cancel, options->body);
   const SporeAccuracyScene scene = spore_accuracy_source_scene(source);
-  SporeAccuracyReport *report = spore_accuracy_study(&scene, options, &fault);
+  gboolean made =
+      spore_accuracy_source_vary_spheres(source, options->spheres, options->sphere_count, options->progress, error);
+  SporeAccuracyReport *report = made ? spore_accuracy_study(&scene, options, &fault) : NULL;
   spore_accuracy_source_free(source);
+  if (!made) return NULL;
   if (!report) {
     const char *file = spore_document_file(document);
     if (file) spore_error_at(&fault, file);

@@ -348,6 +348,10 @@ static bool begin(SporeStudy *study) {
   report->levels = SPORE_NEW_ARRAY(SporeAccuracyLevel, options->level_count);
   if (!report->levels) return no_memory(study);
   for (size_t i = 0; i < options->level_count; i++) report->levels[i].level = options->levels[i];
+  report->spheres = SPORE_NEW_ARRAY(SporeAccuracySpheres, options->sphere_count);
+  if (!report->spheres) return no_memory(study);
+  for (size_t i = 0; i < options->sphere_count; i++) report->spheres[i].factor = options->spheres[i];
+  report->sphere_count = options->sphere_count;
   report->level_count = options->level_count;
   return true;
 }
@@ -372,7 +376,8 @@ static bool carry_out(SporeStudy *study) {
   if (good && study->report->level_count == 0) good = spore_study_find_window(study);
   good = good && plan_and_run(study, world);
   study->scene->drop(study->scene->data, world);
-  return good && spore_study_refer(study) && repeat(study) && (spore_study_judge(study) || no_memory(study));
+  return good && spore_study_refer(study) && spore_study_compare_spheres(study) && repeat(study) &&
+         (spore_study_judge(study) || no_memory(study));
 }
 
 static void clear(SporeStudy *study) {
@@ -416,6 +421,7 @@ void spore_accuracy_report_free(SporeAccuracyReport *report) {
   spore_free(report->methods);
   spore_free(report->points);
   spore_free(report->levels);
+  spore_free(report->spheres);
   spore_free(report->sentence);
   spore_free(report);
 }

@@ -26,6 +26,7 @@ void spore_accuracy_label(const SporeAccuracyMethod *method, char label[SPORE_AC
 typedef struct SporeAccuracyWorld {
   const SporeAccuracyMethod *method; /* NULL: the scene's own */
   int level;                         /* SporeLodGrade; -1: the scene's */
+  double spheres;                    /* times as many as the scene has; 0: the scene's own */
   double dt_s;                       /* 0: the scene's */
   double tolerance;                  /* of implicit steps; 0: the scene's */
   double start_s;                    /* the input begins there */
@@ -49,7 +50,9 @@ typedef struct SporeAccuracyOptions {
   const SporeAccuracyMethod *methods;
   size_t method_count; /* 0: chosen by what the bodies allow */
   const int *levels;
-  size_t level_count; /* 0: the scene's */
+  size_t level_count;    /* 0: the scene's */
+  const double *spheres; /* factors on the numbers of spheres, ascending, two at least */
+  size_t sphere_count;   /* 0: the scene's spheres alone */
   double dt_low_s, dt_high_s;
   size_t dt_count; /* 0: chosen for each method */
   double time_s;   /* simulated, of the stretch; 0: 1 s */
@@ -105,12 +108,25 @@ typedef struct SporeAccuracyLevel {
   double error; /* spatial: of the reference method at this level against the reference */
 } SporeAccuracyLevel;
 
+/* What a set of spheres gives away against the finest one, by the reference's method: apart from what steps do. */
+typedef struct SporeAccuracySpheres {
+  double factor; /* times as many as the scene has */
+  size_t count;  /* of the whole world */
+  /* Of the forces of contacts on each body, and of the depth of the deepest contact, as parts of their root mean square
+   * with the finest set; not a number: nothing touches there. Of places, as the error of a point. Where the scene is
+   * chaotic, of means. */
+  double force, depth, error;
+} SporeAccuracySpheres;
+
 typedef struct SporeAccuracyReport {
   size_t method_count, point_count, level_count, cut_count;
   SporeAccuracyFit *methods;
-  SporeAccuracyPoint *points; /* by levels, methods and falling steps */
-  SporeAccuracyLevel *levels; /* where several were asked for */
-  char **cuts;                /* translated: what was cut to fit the time, or could not be had */
+  SporeAccuracyPoint *points;    /* by levels, methods and falling steps */
+  SporeAccuracyLevel *levels;    /* where several were asked for */
+  SporeAccuracySpheres *spheres; /* by factors, where several were asked for; the finest against itself at half the
+                                    step: what is nearer cannot be told apart */
+  size_t sphere_count;
+  char **cuts; /* translated: what was cut to fit the time, or could not be had */
   double start_s, time_s, interval_s;
   double contacts; /* mean a step, in the reference */
   SporeAccuracyReference reference;

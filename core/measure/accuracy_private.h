@@ -66,6 +66,15 @@ bool spore_study_refer(SporeStudy *study);
 /* Means over the stretch: how far the mean places of the bodies in two trials are apart, by the bodies' lengths. */
 double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b);
 
+/* Runs a method as exactly as the reference is run. spheres: a factor, 0: the scene's; seed 0: not perturbed. */
+bool spore_study_run_exactly(SporeStudy *study, size_t method, const SporeAccuracyWorld *as, uint32_t seed,
+                             SporeTrial *trial);
+/* How far two trials are apart: positions, or where the scene is chaotic their means. */
+double spore_study_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b);
+
+/* accuracy_spheres.c: what each set of spheres gives away, after the reference. False: study->error. */
+bool spore_study_compare_spheres(SporeStudy *study);
+
 /* accuracy_judge.c: errors of all points, orders, the Pareto set and the sentence. False: no memory. */
 bool spore_study_judge(SporeStudy *study);
 

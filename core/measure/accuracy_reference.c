@@ -35,7 +35,7 @@ double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a,
   return sqrt(sum / (double)bodies);
 }
 
-static double difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b) {
+double spore_study_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b) {
   if (study->report->statistics) return spore_study_mean_difference(study, a, b);
   return spore_trial_difference(&study->points, a, b).rms;
 }
@@ -60,7 +60,7 @@ static bool weigh(const SporeStudy *study, size_t method, int level, Candidate *
   if (found < 3) return false;
   const SporeTrial *fine = &study->trials[last[0]], *middle = &study->trials[last[1]],
                    *coarse = &study->trials[last[2]];
-  double near = difference(study, fine, middle), far = difference(study, middle, coarse);
+  double near = spore_study_difference(study, fine, middle), far = spore_study_difference(study, middle, coarse);
   double ratio = middle->dt_s / fine->dt_s,
          nominal = spore_study_nominal_order(report->methods[method].method.integrator);
   double order = log(far / near) / log(ratio);
@@ -99,17 +99,23 @@ static bool choose(const SporeStudy *study, int level, size_t but, double runs, 
   return isfinite(least);
 }
 
-static bool run(SporeStudy *study, size_t method, int level, double dt_s, uint32_t seed, SporeTrial *trial) {
+bool spore_study_run_exactly(SporeStudy *study, size_t method, const SporeAccuracyWorld *as, uint32_t seed,
+                             SporeTrial *trial) {
   SporeError why = SPORE_ERROR_INIT;
-  const SporeAccuracyWorld world = {.method = &study->report->methods[method].method,
-                                    .level = level,
-                                    .dt_s = spore_trial_step(study->report->interval_s, dt_s),
-                                    .tolerance = TOLERANCE,
-                                    .awake = true};
+  SporeAccuracyWorld world = *as;
+  world.method = &study->report->methods[method].method;
+  world.dt_s = spore_trial_step(study->report->interval_s, as->dt_s);
+  world.tolerance = TOLERANCE;
+  world.awake = true;
   const SporeStudyRun how = {.perturbation = seed ? PERTURBATION : 0, .seed = seed};
   SporeStudyOutcome outcome = spore_study_run(study, &world, &how, trial, &why);
   if (outcome == SPORE_STUDY_REFUSED && study->error) *study->error = why;
   return outcome == SPORE_STUDY_RAN;
+}
+
+static bool run(SporeStudy *study, size_t method, int level, double dt_s, uint32_t seed, SporeTrial *trial) {
+  const SporeAccuracyWorld as = {.level = level, .dt_s = dt_s};
+  return spore_study_run_exactly(study, method, &as, seed, trial);
 }
 
 /* Mean places over perturbed runs, in the place of the reference's; the spread is how far the runs lie from them. */
@@ -163,7 +169,7 @@ static bool cross_check(SporeStudy *study, int level) {
   reference->cross_dt_s = spore_trial_step(study->report->interval_s, second.dt_s / (double)(1 << halved));
   reference->cross_expected = second.error * pow(2, -second.order * halved);
   if (!run(study, second.method, level, reference->cross_dt_s, 0, &trial)) return false;
-  reference->cross_difference = difference(study, &study->reference, &trial);
+  reference->cross_difference = spore_study_difference(study, &study->reference, &trial);
   spore_trial_clear(&trial);
   double said = reference->cross_expected + reference->own_error + study->report->spread + study->report->growth;
   reference->agreed = reference->cross_difference <= AGREE * said;
@@ -183,7 +189,7 @@ static bool refuse(SporeStudy *study) {
 static bool find_own_error(SporeStudy *study, const SporeTrial *coarse, const SporeTrial *middle) {
   SporeAccuracyReference *reference = &study->report->reference;
   const SporeTrial *fine = &study->reference;
-  double far = difference(study, coarse, middle), near = difference(study, middle, fine);
+  double far = spore_study_difference(study, coarse, middle), near = spore_study_difference(study, middle, fine);
   double ratio = middle->dt_s / fine->dt_s;
   double nominal = spore_study_nominal_order(study->report->methods[reference->method].method.integrator);
   reference->order = near > 0 ? log(far / near) / log(coarse->dt_s / middle->dt_s) : nominal;
@@ -217,7 +223,7 @@ static bool find_spatial_errors(SporeStudy *study) {
     SporeTrial trial;
     if (!run(study, report->reference.method, report->levels[i].level, 4 * report->reference.dt_s, 0, &trial))
       return false;
-    report->levels[i].error = difference(study, &study->reference, &trial);
+    report->levels[i].error = spore_study_difference(study, &study->reference, &trial);
     spore_trial_clear(&trial);
   }
   return true;

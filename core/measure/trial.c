@@ -42,9 +42,11 @@ static bool allocate(Run *run) {
   trial->momentum = SPORE_NEW_ARRAY(double, samples * 3);
   trial->centre = SPORE_NEW_ARRAY(double, samples * run->points->body_count * 3);
   trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
+  trial->contact_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
+  trial->contact_depth = SPORE_NEW_ARRAY(double, samples);
   run->mappings = SPORE_NEW_ARRAY(SporeMapping, run->points->body_count);
   return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre &&
-         trial->device_force && run->mappings;
+         trial->device_force && trial->contact_force && trial->contact_depth && run->mappings;
 }
 
 static bool map_points(Run *run, SporeError *error) {
@@ -152,6 +154,19 @@ static void take_forces(const Run *run, const SporeSnapshot *snapshot, double *f
       memcpy(force + 3 * b, snapshot->reaction + 6 * b, 3 * sizeof *force);
 }
 
+/* Those that the snapshot lists. */
+static void take_contacts(const Run *run, const SporeSnapshot *snapshot, double *force) {
+  const SporeSpheres *spheres = spore_world_spheres(run->world);
+  size_t count =
+      snapshot->contact_count < snapshot->contact_capacity ? snapshot->contact_count : snapshot->contact_capacity;
+  for (size_t i = 0; i < count; i++) {
+    const SporeSnapshotContact *contact = &snapshot->contacts[i];
+    double *a = force + 3 * spheres->body[contact->sphere_a], *b = force + 3 * spheres->body[contact->sphere_b];
+    spore_vec3_store(a, spore_vec3_add(spore_vec3_load(a), contact->force));
+    spore_vec3_store(b, spore_vec3_sub(spore_vec3_load(b), contact->force));
+  }
+}
+
 static void look(Run *run) {
   SporeTrial *trial = run->trial;
   size_t s = trial->samples, point = 0;
@@ -163,6 +178,8 @@ static void look(Run *run) {
     point += run->points->bodies[k].count;
   }
   take_forces(run, snapshot, trial->device_force + 3 * s * trial->world_bodies);
+  take_contacts(run, snapshot, trial->contact_force + 3 * s * trial->world_bodies);
+  trial->contact_depth[s] = s > 0 ? spore_world_counts(run->world).contact_depth : 0;
   SporeEnergy energy = spore_world_energy(run->world);
   trial->energy[s] = energy.kinetic + energy.internal + energy.gravity + energy.contact;
   trial->kinetic[s] = energy.kinetic;
@@ -209,6 +226,7 @@ static void judge(Run *run) {
   SporeProfileSummary times = spore_profile_summary(spore_world_profile(run->world));
   trial->median_us = times.median_us, trial->p99_us = times.p99_us;
   trial->simulated_s = (double)trial->steps * trial->dt_s;
+  trial->spheres = spore_world_spheres(run->world)->count;
   trial->recoveries = monitor->recoveries;
   trial->unsolved = spore_world_unsolved_count(run->world);
   trial->stable = trial->finite && !monitor->not_finite && !monitor->too_fast && !monitor->energy;
@@ -248,5 +266,7 @@ void spore_trial_clear(SporeTrial *trial) {
   spore_free(trial->momentum);
   spore_free(trial->centre);
   spore_free(trial->device_force);
+  spore_free(trial->contact_force);
+  spore_free(trial->contact_depth);
   *trial = (SporeTrial){0};
 }

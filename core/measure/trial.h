@@ -45,14 +45,16 @@ typedef struct SporeTrialSettings {
 
 /* What a trial gave; memory of its own. Sample k is k intervals after the start, sample 0 the start. */
 typedef struct SporeTrial {
-  size_t samples, points; /* samples: looks that were made, with the one at the start; points: as followed */
-  double *positions;      /* samples x points x 3, m, world; not numbers: a particle out of the world */
-  double *energy;         /* samples: total, J */
-  double *kinetic;        /* samples, J */
-  double *momentum;       /* samples x 3: of all passive bodies, N s */
-  double *centre;         /* samples x bodies followed x 3: mean position of the points of each, m */
-  size_t world_bodies;
-  double *device_force; /* samples x world_bodies x 3: force on each body that a device moves, N; 0 of the others */
+  size_t samples, points;       /* samples: looks that were made, with the one at the start; points: as followed */
+  double *positions;            /* samples x points x 3, m, world; not numbers: a particle out of the world */
+  double *energy;               /* samples: total, J */
+  double *kinetic;              /* samples, J */
+  double *momentum;             /* samples x 3: of all passive bodies, N s */
+  double *centre;               /* samples x bodies followed x 3: mean position of the points of each, m */
+  size_t world_bodies, spheres; /* of the world */
+  double *device_force;  /* samples x world_bodies x 3: force on each body that a device moves, N; 0 of the others */
+  double *contact_force; /* samples x world_bodies x 3: of contacts alone, on each body, N */
+  double *contact_depth; /* samples: of the deepest contact, m */
   size_t steps;
   double dt_s, simulated_s;
   double cpu_s;                                       /* of the steps, on the thread's own clock; looks are not in it */

@@ -60,6 +60,30 @@ def swing(name="swing.spore", replace=("", "")):
     return path
 
 
+def falling():
+    """A box that falls onto one sphere, felt by 16 spheres that were generated."""
+    corners = [(x, y, z) for x in (-0.04, 0.04) for y in (-0.02, 0.02) for z in (-0.03, 0.03)]
+    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+    path = WORK / "falling/falling.spore"
+    path.parent.mkdir(exist_ok=True)
+    content = shapes.off(corners, faces)
+    (path.parent / "box.off").write_bytes(content if isinstance(content, bytes) else content.encode())
+    (path.parent / "floor.spheres").write_text("0 -0.5 0 0.48\n")
+    subprocess.run([SPORE, "spheres", path.parent / "box.off", "--count", "16", "--unit", "m", "-o", path.parent / "box.spheres", "--quiet"], check=True)
+    path.write_text("""<?xml version="1.0" encoding="UTF-8"?>
+<spore version="1.0">
+  <environment gravity="0 -9.81 0"/>
+  <solver time_step="0.002"/>
+  <assets><mesh name="box" file="box.off"/><spheres name="felt" file="box.spheres" source="box" count="16"/><spheres name="below" file="floor.spheres"/></assets>
+  <bodies>
+    <body name="box" position="0.01 0.005 0"><mechanical geometry="box"><rigid_body mass="0.2"/></mechanical><collision spheres="felt" stiffness="2000" damping="5"/></body>
+    <body name="floor" role="unmovable"><collision spheres="below" stiffness="2000" damping="5"/></body>
+  </bodies>
+</spore>
+""")
+    return path
+
+
 def points_of(report, method):
     return [point for point in report["points"] if point["method"] == method]
 
@@ -126,6 +150,20 @@ def solvers_are_an_axis():
 
 
 @check
+def fewer_spheres_feel_otherwise():
+    """More spheres come nearer to the finest set; the scene's file stays as it is."""
+    scene = falling()
+    before, wanted = scene.read_bytes(), ("--methods", "implicit_euler,tr_bdf2", "--dt", "0.001:0.004:3", "--time", "0.3", "--full", "--spheres", "1,0.25,4")
+    report = json.loads(spore(scene, *wanted, "--json", "--html", "s.html").stdout)
+    few, same, finest = report["spheres"]
+    assert [row["factor"] for row in report["spheres"]] == [0.25, 1, 4] and few["count"] < same["count"] < finest["count"]
+    for figure in ("force", "depth", "error"): # a bounce in large steps: the last are what steps alone do
+        assert few[figure] > 1.5 * same[figure] > 3 * finest[figure], (figure, report["spheres"])
+    assert scene.read_bytes() == before and (WORK / "s.html").read_text().count("<table>") == 2
+    assert json.loads(spore(swing(), *FEW, "--json").stdout)["spheres"] == []
+
+
+@check
 def less_time_cuts_more():
     """What cannot be had in a second is cut, and said: it would take minutes. A full study cuts nothing."""
     short = json.loads(spore(SCENES / "plate2-tissue.spore", "--seconds", "1", "--json").stdout)
@@ -164,6 +202,9 @@ def bad_wishes_are_refused():
     refuses(scene, "--time", "0", says=["--time"])
     for wrong in ("0", "0.5", "1e5", "soon"):
         refuses(scene, "--seconds", wrong, says=["--seconds"])
+    for wrong in ("1", "2,2", "0,1", "a,b", "1,100"):
+        refuses(scene, "--spheres", wrong, says=["--spheres", wrong, "0.5,1,2"])
+    refuses(scene, "--spheres", "1,2", says=["generated", "spore spheres"])
     refuses(scene, "--seconds", "5", "--full", says=["--seconds", "--full"])
     refuses(scene, "--body", "liver", says=["--body", "liver", "ball"])
     refuses(scene, "--body", "wall", says=["--body", "wall", "passive"])

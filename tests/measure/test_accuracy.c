@@ -16,6 +16,9 @@
 #define DIVERGENCE 70.  /* 1/s: 1e-8 grows to 1e-2 in the stretch */
 #define COARSE_PART 0.9 /* of gravity: an error that no step mends */
 
+#define REST_STIFFNESS 4000. /* N/m, of either of the two that touch */
+#define REST_DAMPING 120.    /* N s/m */
+
 /* What worlds are made of. */
 typedef struct Case {
   void (*describe)(Rig *rig);
@@ -68,6 +71,8 @@ static SporeWorld *make(void *data, const SporeAccuracyWorld *wanted, SporeError
   solver->time_step = wanted->dt_s > 0 ? wanted->dt_s : 1e-3;
   if (wanted->method) solver->integrator = (int)wanted->method->integrator;
   if (test->broken && wanted->method && wanted->method->integrator == BROKEN) solver->time_step *= BROKEN_PART;
+  for (guint i = 0; i < rig->bodies->len && wanted->spheres > 0; i++)
+    g_array_index(rig->bodies, SporeBodyDescription, i).contact.stiffness *= wanted->spheres;
   if (wanted->level == SPORE_LOD_COARSE) rig->description.gravity.y *= COARSE_PART;
   SporeWorld *world = rig_try_build(rig, error);
   if (world) g_hash_table_insert(test->rigs, world, rig);
@@ -208,6 +213,68 @@ static void test_levels(void) {
   g_hash_table_unref(test.rigs);
 }
 
+/* A ball that comes to rest on a floor. Its spheres' number stands here for the stiffness of the contact. */
+static void describe_rest(Rig *rig) {
+  const SporeContactFields contact = {.stiffness = REST_STIFFNESS, .damping = REST_DAMPING};
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(0.1, 0.1, 0.1));
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  SporeModel *model = rig_surface_model(&spore_rigid_body, &cube, "mass", 0.5, NULL);
+  SporeBodyDescription *ball = rig_passive(rig, "ball", model, rig_sphere(rig, 0.05));
+  ball->pose.position = spore_vec3(0, 0.05, 0);
+  ball->contact = contact;
+  SporeBodyDescription *floor = rig_unmovable(rig, "floor", rig_sphere(rig, 100));
+  floor->pose.position = spore_vec3(0, -100, 0);
+  floor->contact = contact;
+}
+
+static SporeAccuracyReport *study_spheres(void (*describe)(Rig *rig), const double *factors, size_t count) {
+  Case test = {.describe = describe, .rigs = g_hash_table_new(NULL, NULL)};
+  const SporeAccuracyScene scene = {&test, make, drop, FALSE, {SPORE_INTEGRATOR_RK4, -1, -1}, 1e-3};
+  const SporeAccuracyOptions options = {.methods = all,
+                                        .method_count = 2,
+                                        .spheres = factors,
+                                        .sphere_count = count,
+                                        .dt_low_s = 5e-4,
+                                        .dt_high_s = 2e-3,
+                                        .dt_count = 3,
+                                        .time_s = 1,
+                                        .full = TRUE};
+  SporeError error = SPORE_ERROR_INIT;
+  SporeAccuracyReport *report = spore_accuracy_study(&scene, &options, &error);
+  if (!report) g_error("%s", error.message);
+  g_assert_cmpuint(test.made, ==, test.dropped);
+  g_hash_table_unref(test.rigs);
+  return report;
+}
+
+/* At rest the force is the weight, whatever gives it; the depth is the weight over the stiffness. */
+static void test_spheres(void) {
+  static const double factors[] = {1, 2, 4};
+  SporeAccuracyReport *report = study_spheres(describe_rest, factors, 3);
+  g_assert_cmpuint(report->sphere_count, ==, 3);
+  for (size_t i = 0; i < 3; i++) {
+    const SporeAccuracySpheres *spheres = &report->spheres[i];
+    g_test_message("%g: force %g, depth %g, places %g", spheres->factor, spheres->force, spheres->depth,
+                   spheres->error);
+    g_assert_cmpuint(spheres->count, ==, 2);
+    g_assert_cmpfloat_with_epsilon(spheres->depth, factors[2] / factors[i] - 1, 0.1);
+    g_assert_cmpfloat(spheres->force, <, 0.2); /* while it comes to rest */
+  }
+  g_assert_cmpfloat(report->spheres[2].depth, <, 0.01); /* the depth is that when a step began */
+  g_assert_cmpfloat(report->spheres[2].force, <, report->spheres[1].force);
+  spore_accuracy_report_free(report);
+}
+
+/* Without contacts there is nothing to tell of them, and places do not depend on spheres. */
+static void test_spheres_apart(void) {
+  static const double factors[] = {1, 2};
+  SporeAccuracyReport *report = study_spheres(describe_springs, factors, 2);
+  g_assert_true(isnan(report->spheres[0].force) && isnan(report->spheres[0].depth));
+  g_assert_cmpfloat(report->spheres[0].error, ==, 0);
+  spore_accuracy_report_free(report);
+}
+
 /* A method that does not go as far as it says has an error that no step lowers. */
 static void test_broken_point(void) {
   const SporeAccuracyMethod methods[] = {all[1], all[3], {BROKEN, -1, -1}};
@@ -306,6 +373,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/accuracy/top", test_top);
   g_test_add_func("/accuracy/orders", test_orders);
   g_test_add_func("/accuracy/levels", test_levels);
+  g_test_add_func("/accuracy/spheres", test_spheres);
+  g_test_add_func("/accuracy/spheres_apart", test_spheres_apart);
   g_test_add_func("/accuracy/broken_point", test_broken_point);
   g_test_add_func("/accuracy/broken_reference", test_broken_reference);
   g_test_add_func("/accuracy/chaos", test_chaos);
