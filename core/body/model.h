@@ -162,6 +162,25 @@ typedef struct SporeModelAdapt {
   void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
 } SporeModelAdapt;
 
+/* Where a model's elements are met one after the other: so many seconds after the step began. */
+typedef struct SporeSweep {
+  double h;
+  const double *before; /* 3 a node: where it was when the step began */
+  double *now;          /* 4 a node: where it is, and one over its mass, 0 of a node that is held */
+} SporeSweep;
+
+/* What a nodal model can do whose elements can be met one after the other, each implicitly by itself. Slots are
+ * required where they do not say otherwise. */
+typedef struct SporeModelSweep {
+  /* Whether this model can. NULL: all of the type can. */
+  bool (*can)(const SporeModel *model);
+  /* Puts the elements in order, when a body is to move so. False: no memory. */
+  bool (*prepare)(SporeModel *model);
+  /* Moves the nodes of `now`: one sweep over all elements, which takes the place of the slot force. As h goes to 0 the
+   * two agree. Allocates nothing. */
+  void (*sweep)(SporeModel *model, const SporeSweep *at);
+} SporeModelSweep;
+
 /* A model of particles: its points keep no neighbours, and what is drawn is the skin around them, not a surface that
  * follows them. */
 typedef struct SporeModelParticles {
@@ -268,6 +287,7 @@ struct SporeModelType {
   /* What only some models can do; NULL: this one cannot. */
   const SporeModelCut *cut;
   const SporeModelHeat *heat;
+  const SporeModelSweep *sweep;
   const SporeModelAdapt *adapt;
   const SporeModelParticles *particles;
   const SporeModelLine *line;
@@ -284,6 +304,11 @@ bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node
 void spore_model_clear(SporeModel *model);
 /* Whether all blocks are nodes: the model has no frame. */
 static inline bool spore_model_is_nodal(const SporeModel *model) { return model->node_count == model->block_count; }
+/* Whether the model's elements can be met one after the other. */
+static inline bool spore_model_sweeps(const SporeModel *model) {
+  const SporeModelSweep *sweep = model->type->sweep;
+  return sweep && (!sweep->can || sweep->can(model));
+}
 /* Whether the model is one frame and no other node: points follow it rigidly. */
 static inline bool spore_model_is_rigid(const SporeModel *model) {
   return model->node_count == 1 && model->block_count == 2;

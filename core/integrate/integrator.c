@@ -4,9 +4,8 @@
 #include <assert.h>
 
 static const SporeIntegrator *const integrators[SPORE_INTEGRATOR_COUNT] = {
-    &spore_explicit_euler, &spore_symplectic_euler,  &spore_verlet, &spore_rk4,
-    &spore_implicit_euler, &spore_implicit_midpoint, &spore_bdf2,   &spore_tr_bdf2,
-    &spore_static,
+    &spore_explicit_euler, &spore_symplectic_euler,  &spore_verlet, &spore_rk4,     &spore_position_based,
+    &spore_implicit_euler, &spore_implicit_midpoint, &spore_bdf2,   &spore_tr_bdf2, &spore_static,
 };
 
 const SporeIntegrator *spore_integrator(SporeIntegratorKind kind) {

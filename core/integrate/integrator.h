@@ -49,6 +49,9 @@ typedef struct SporeIntegrator {
   /* Keeps, in small enough steps, an energy near the true one: the true one swings about it without growing (Hairer,
    * Lubich and Wanner, Acta Numerica 12, 2003, section 1). */
   bool swings;
+  /* Meets the elements of bodies that can be met so one after the other (SporeModelSweep): then no step is too large
+   * for these bodies. */
+  bool sweeps;
   /* Explicit: modes with w^2 h^2 + stable_damping d h <= stable_square stay bounded; w^2 and d are eigenvalues of
    * M^-1 K and M^-1 D. 1 of it is for contacts and links. 0: not of this form. */
   double stable_square, stable_damping;
@@ -67,6 +70,6 @@ const SporeIntegrator *spore_integrator(SporeIntegratorKind kind);
 size_t spore_integrator_scratch(void);
 
 extern const SporeIntegrator spore_explicit_euler, spore_symplectic_euler, spore_verlet, spore_rk4,
-    spore_implicit_euler, spore_implicit_midpoint, spore_bdf2, spore_tr_bdf2, spore_static;
+    spore_position_based, spore_implicit_euler, spore_implicit_midpoint, spore_bdf2, spore_tr_bdf2, spore_static;
 
 #endif

@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 
 const char *const spore_integrator_names[] = {
-    "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
+    "explicit_euler", "symplectic_euler", "verlet", "rk4", "position_based", "implicit_euler", "implicit_midpoint",
     "bdf2",           "tr_bdf2",          "static", NULL};
 const char *const spore_nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
 const char *const spore_linear_names[] = {"automatic", "conjugate_gradients", "cholesky", "banded", NULL};

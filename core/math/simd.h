@@ -260,6 +260,98 @@ SPORE_INLINE void spore_vd3_store_rows(double *rows, SporeVd3 a) {
 #endif
 }
 
+/* Four numbers a lane: points and a number that goes with each. */
+typedef struct SporeVd4 {
+  SporeVd x, y, z, w;
+} SporeVd4;
+
+#if SPORE_WIDTH >= 4
+/* SPORE_WIDTH rows of four, as four vectors of one entry each. */
+SPORE_INLINE SporeVd4 spore_rows_turn(const __m256d row[SPORE_WIDTH]) {
+#if SPORE_WIDTH == 8
+  __m512d both[4];
+  for (int i = 0; i < 4; i++) both[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(row[i]), row[i + 4], 1);
+  __m512d low = _mm512_unpacklo_pd(both[0], both[1]), high = _mm512_unpacklo_pd(both[2], both[3]);
+  __m512d odd_low = _mm512_unpackhi_pd(both[0], both[1]), odd_high = _mm512_unpackhi_pd(both[2], both[3]);
+  const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                third = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  return (SporeVd4){
+      (SporeVd)_mm512_permutex2var_pd(low, first, high), (SporeVd)_mm512_permutex2var_pd(odd_low, first, odd_high),
+      (SporeVd)_mm512_permutex2var_pd(low, third, high), (SporeVd)_mm512_permutex2var_pd(odd_low, third, odd_high)};
+#else
+  __m256d low = _mm256_unpacklo_pd(row[0], row[1]), high = _mm256_unpacklo_pd(row[2], row[3]);
+  __m256d odd_low = _mm256_unpackhi_pd(row[0], row[1]), odd_high = _mm256_unpackhi_pd(row[2], row[3]);
+  return (SporeVd4){
+      (SporeVd)_mm256_permute2f128_pd(low, high, 0x20), (SporeVd)_mm256_permute2f128_pd(odd_low, odd_high, 0x20),
+      (SporeVd)_mm256_permute2f128_pd(low, high, 0x31), (SporeVd)_mm256_permute2f128_pd(odd_low, odd_high, 0x31)};
+#endif
+}
+
+/* The way back. */
+SPORE_INLINE void spore_rows_of(SporeVd4 a, __m256d row[SPORE_WIDTH]) {
+#if SPORE_WIDTH == 8
+  __m512d xy_even = _mm512_unpacklo_pd((__m512d)a.x, (__m512d)a.y),
+          zw_even = _mm512_unpacklo_pd((__m512d)a.z, (__m512d)a.w);
+  __m512d xy_odd = _mm512_unpackhi_pd((__m512d)a.x, (__m512d)a.y),
+          zw_odd = _mm512_unpackhi_pd((__m512d)a.z, (__m512d)a.w);
+  const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                third = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  const __m512d both[4] = {
+      _mm512_permutex2var_pd(xy_even, first, zw_even), _mm512_permutex2var_pd(xy_odd, first, zw_odd),
+      _mm512_permutex2var_pd(xy_even, third, zw_even), _mm512_permutex2var_pd(xy_odd, third, zw_odd)};
+  for (int i = 0; i < 4; i++) row[i] = _mm512_castpd512_pd256(both[i]), row[i + 4] = _mm512_extractf64x4_pd(both[i], 1);
+#else
+  __m256d xy_even = _mm256_unpacklo_pd((__m256d)a.x, (__m256d)a.y),
+          zw_even = _mm256_unpacklo_pd((__m256d)a.z, (__m256d)a.w);
+  __m256d xy_odd = _mm256_unpackhi_pd((__m256d)a.x, (__m256d)a.y),
+          zw_odd = _mm256_unpackhi_pd((__m256d)a.z, (__m256d)a.w);
+  row[0] = _mm256_permute2f128_pd(xy_even, zw_even, 0x20), row[1] = _mm256_permute2f128_pd(xy_odd, zw_odd, 0x20);
+  row[2] = _mm256_permute2f128_pd(xy_even, zw_even, 0x31), row[3] = _mm256_permute2f128_pd(xy_odd, zw_odd, 0x31);
+#endif
+}
+#endif
+
+/* Lane i from rows + 4 index[i]. */
+SPORE_INLINE SporeVd4 spore_vd4_gather(const double *rows, const uint32_t *index) {
+#if SPORE_WIDTH >= 4
+  __m256d row[SPORE_WIDTH];
+  for (int i = 0; i < SPORE_WIDTH; i++) row[i] = _mm256_loadu_pd(rows + 4 * (size_t)index[i]);
+  return spore_rows_turn(row);
+#else
+  const double *a = rows + 4 * (size_t)index[0], *b = rows + 4 * (size_t)index[1];
+  return (SporeVd4){{a[0], b[0]}, {a[1], b[1]}, {a[2], b[2]}, {a[3], b[3]}};
+#endif
+}
+
+/* Lane i from rows + 4 i. */
+SPORE_INLINE SporeVd4 spore_vd4_load(const double *rows) {
+  uint32_t index[SPORE_WIDTH];
+  for (uint32_t i = 0; i < SPORE_WIDTH; i++) index[i] = i;
+  return spore_vd4_gather(rows, index);
+}
+
+/* Lane i to rows + 4 index[i], for the first `count` lanes. */
+SPORE_INLINE void spore_vd4_scatter(double *rows, const uint32_t *index, size_t count, SporeVd4 a) {
+#if SPORE_WIDTH >= 4
+  __m256d row[SPORE_WIDTH];
+  spore_rows_of(a, row);
+  for (size_t i = 0; i < SPORE_WIDTH; i++)
+    if (i < count) _mm256_storeu_pd(rows + 4 * (size_t)index[i], row[i]);
+#else
+  for (size_t i = 0; i < SPORE_WIDTH && i < count; i++) {
+    double *row = rows + 4 * (size_t)index[i];
+    row[0] = a.x[i], row[1] = a.y[i], row[2] = a.z[i], row[3] = a.w[i];
+  }
+#endif
+}
+
+/* Lane i to rows + 4 i. */
+SPORE_INLINE void spore_vd4_store(double *rows, SporeVd4 a) {
+  uint32_t index[SPORE_WIDTH];
+  for (uint32_t i = 0; i < SPORE_WIDTH; i++) index[i] = i;
+  spore_vd4_scatter(rows, index, SPORE_WIDTH, a);
+}
+
 SPORE_INLINE SporeVd3 spore_vd3_sub(SporeVd3 a, SporeVd3 b) { return (SporeVd3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 SPORE_INLINE SporeVd spore_vd3_dot(SporeVd3 a, SporeVd3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 

@@ -6,6 +6,16 @@
 
 #include "core/math/simd.h"
 
+/* Nodes on their way from x0, v0 through a step of h seconds: `part` of it is looked at. 3 entries a node. */
+typedef struct SporeRowsStep {
+  double part, h;
+  const double *x0, *v0;
+  double *x1, *v1; /* v1: at the end, as far as it is known */
+} SporeRowsStep;
+
+SPORE_DECLARE_KERNEL(void, spore_rows_predict, size_t nodes, double *rows, const SporeRowsStep *at,
+                     const double *weight);
+SPORE_DECLARE_KERNEL(void, spore_rows_follow, size_t nodes, const double *rows, const SporeRowsStep *at);
 SPORE_DECLARE_KERNEL(double, spore_vector_dot, size_t n, const double *a, const double *b);
 SPORE_DECLARE_KERNEL(void, spore_vector_add_scaled, size_t n, double *y, double s, const double *x);
 SPORE_DECLARE_KERNEL(void, spore_vector_scale_add, size_t n, double *y, double s, const double *x);
@@ -52,6 +62,15 @@ static inline double spore_nodes_dual(size_t nodes, const double *x, const doubl
 /* y += weight g, the same g for each */
 static inline void spore_nodes_pull(size_t nodes, double *y, const double *weight, const double g[3]) {
   SPORE_KERNEL(spore_nodes_pull)(nodes, y, weight, g);
+}
+
+/* Rows of four entries a node: x0 + part h u, u = v0 + part (v1 - v0), and one over its weight. */
+static inline void spore_rows_predict(size_t nodes, double *rows, const SporeRowsStep *at, const double *weight) {
+  SPORE_KERNEL(spore_rows_predict)(nodes, rows, at, weight);
+}
+/* From rows that were moved since then: u = (row - x0) / (part h), x1 = x0 + h u, v1 = v0 + (u - v0) / part. */
+static inline void spore_rows_follow(size_t nodes, const double *rows, const SporeRowsStep *at) {
+  SPORE_KERNEL(spore_rows_follow)(nodes, rows, at);
 }
 
 #endif

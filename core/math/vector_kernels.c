@@ -61,14 +61,14 @@ void SPORE_LEVEL_NAME(spore_vector_move)(size_t n, double *y, const double *x, d
 }
 
 /* The weights of SPORE_WIDTH nodes, each three times. */
-SPORE_INLINE void spread(const double *weight, SporeVd spread[3]) {
+SPORE_INLINE void spread_lanes(SporeVd weight, SporeVd spread[3]) {
 #if SPORE_WIDTH == 8
-  __m512d w = _mm512_loadu_pd(weight);
+  __m512d w = (__m512d)weight;
   spread[0] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(0, 0, 0, 1, 1, 1, 2, 2), w);
   spread[1] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(2, 3, 3, 3, 4, 4, 4, 5), w);
   spread[2] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(5, 5, 6, 6, 6, 7, 7, 7), w);
 #elif SPORE_WIDTH == 4
-  __m256d w = _mm256_loadu_pd(weight);
+  __m256d w = (__m256d)weight;
   spread[0] = (SporeVd)_mm256_permute4x64_pd(w, 0x40);
   spread[1] = (SporeVd)_mm256_permute4x64_pd(w, 0xa5);
   spread[2] = (SporeVd)_mm256_permute4x64_pd(w, 0xfe);
@@ -78,6 +78,8 @@ SPORE_INLINE void spread(const double *weight, SporeVd spread[3]) {
   spread[2] = (SporeVd){weight[1], weight[1]};
 #endif
 }
+
+SPORE_INLINE void spread(const double *weight, SporeVd spread[3]) { spread_lanes(spore_vd_load(weight), spread); }
 
 void SPORE_LEVEL_NAME(spore_nodes_weigh)(size_t nodes, double *y, const double *weight, const double *x) {
   assert(y != weight || nodes == 0);
@@ -98,13 +100,13 @@ void SPORE_LEVEL_NAME(spore_nodes_kick)(size_t nodes, double *y, double s, const
   size_t i = 0;
   for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
     SporeVd w[3];
-    spread(weight + i, w);
+    spread_lanes(s / spore_vd_load(weight + i), w);
     for (size_t k = 0; k < 3; k++) {
       size_t at = 3 * i + k * SPORE_WIDTH;
-      spore_vd_store(y + at, spore_vd_load(y + at) + s * spore_vd_load(x + at) / w[k]);
+      spore_vd_store(y + at, spore_vd_load(y + at) + spore_vd_load(x + at) * w[k]);
     }
   }
-  for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += s * x[k] / weight[k / 3];
+  for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += x[k] * (s / weight[k / 3]);
 }
 
 SPORE_INLINE SporeVd dual_of(SporeVd x, SporeVd weight) {
@@ -143,4 +145,44 @@ void SPORE_LEVEL_NAME(spore_nodes_pull)(size_t nodes, double *y, const double *w
     }
   }
   for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += weight[k / 3] * g[k % 3];
+}
+
+SPORE_INLINE SporeVd3 along(SporeVd3 x, double s, SporeVd3 y) {
+  return (SporeVd3){x.x + s * y.x, x.y + s * y.y, x.z + s * y.z};
+}
+
+void SPORE_LEVEL_NAME(spore_rows_predict)(size_t nodes, double *rows, const SporeRowsStep *at, const double *weight) {
+  double reach = at->part * at->h;
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
+    SporeVd3 v0 = spore_vd3_load(at->v0 + 3 * i), v = spore_vd3_load(at->v1 + 3 * i);
+    SporeVd3 speed = along(v0, at->part, spore_vd3_sub(v, v0)),
+             to = along(spore_vd3_load(at->x0 + 3 * i), reach, speed);
+    spore_vd4_store(rows + 4 * i, (SporeVd4){to.x, to.y, to.z, 1 / spore_vd_load(weight + i)});
+  }
+  for (; i < nodes; i++) {
+    for (size_t k = 3 * i; k < 3 * i + 3; k++)
+      rows[4 * i + k % 3] = at->x0[k] + reach * (at->v0[k] + at->part * (at->v1[k] - at->v0[k]));
+    rows[4 * i + 3] = 1 / weight[i];
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_rows_follow)(size_t nodes, const double *rows, const SporeRowsStep *at) {
+  double reach = at->part * at->h, rate = 1 / reach, more = 1 / at->part;
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
+    SporeVd3 x0 = spore_vd3_load(at->x0 + 3 * i), v0 = spore_vd3_load(at->v0 + 3 * i);
+    SporeVd3 speed = along(v0, at->part, spore_vd3_sub(spore_vd3_load(at->v1 + 3 * i), v0));
+    SporeVd4 row = spore_vd4_load(rows + 4 * i);
+    speed = along(speed, rate, spore_vd3_sub((SporeVd3){row.x, row.y, row.z}, along(x0, reach, speed)));
+    spore_vd3_store(at->x1 + 3 * i, along(x0, at->h, speed));
+    spore_vd3_store(at->v1 + 3 * i, along(v0, more, spore_vd3_sub(speed, v0)));
+  }
+  for (; i < nodes; i++)
+    for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+      double x0 = at->x0[k], v0 = at->v0[k], speed = v0 + at->part * (at->v1[k] - v0);
+      speed += rate * (rows[4 * i + k % 3] - (x0 + reach * speed));
+      at->x1[k] = x0 + at->h * speed;
+      at->v1[k] = v0 + more * (speed - v0);
+    }
 }

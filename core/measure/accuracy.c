@@ -68,6 +68,13 @@ static bool is_all_particles(const SporeStudy *study, const SporeWorld *world) {
   return true;
 }
 
+/* Whether some body's elements can be met one after the other. */
+static bool some_sweep(const SporeStudy *study, const SporeWorld *world) {
+  for (size_t k = 0; k < study->points.body_count; k++)
+    if (spore_model_sweeps(spore_world_body_model(world, study->points.bodies[k].body))) return true;
+  return false;
+}
+
 static bool choose_methods(SporeStudy *study, const SporeWorld *world) {
   static const SporeIntegratorKind usual[] = {SPORE_INTEGRATOR_IMPLICIT_EULER,    SPORE_INTEGRATOR_TR_BDF2,
                                               SPORE_INTEGRATOR_IMPLICIT_MIDPOINT, SPORE_INTEGRATOR_BDF2,
@@ -84,7 +91,8 @@ static bool choose_methods(SporeStudy *study, const SporeWorld *world) {
   size_t count = alone ? sizeof explicit / sizeof *explicit : sizeof usual / sizeof *usual;
   for (size_t m = 0; m < count; m++)
     if (!add_method(study, &(SporeAccuracyMethod){alone ? explicit[m] : usual[m], -1, -1})) return false;
-  return true;
+  return !some_sweep(study, world) ||
+         add_method(study, &(SporeAccuracyMethod){SPORE_INTEGRATOR_POSITION_BASED, -1, -1});
 }
 
 /* Steps. */

@@ -268,6 +268,19 @@ static SporeWorld *give_up(SporeWorld *world) {
   return NULL;
 }
 
+static void prepare_sweep(SporeModel *model, void *user) {
+  bool *made = user;
+  if (model->type->sweep) *made = *made && model->type->sweep->prepare(model);
+}
+
+static bool prepare_sweeps(const SporeWorld *world) {
+  bool made = true;
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_PASSIVE && spore_integrator(world->bodies[b].method.chosen)->sweeps)
+      spore_body_each_model(&world->bodies[b], prepare_sweep, &made);
+  return made;
+}
+
 static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
 
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
@@ -287,14 +300,14 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
   world->links.hold_count = spore_tools_spring_count(description);
-  bool made = create_bodies(world, description, error) && create_spheres(world, description, error) && go_on(world) &&
-              spore_world_create_links(world, description, error) &&
-              spore_world_create_tools(world, description, error) &&
-              spore_world_create_particles(world, description, error) && go_on(world) &&
-              (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
-              go_on(world) && spore_world_create_lod(world, description, error) &&
-              spore_lod_create_automation(world, description, error) && allocate_vectors(world, error) &&
-              go_on(world) && check_steps(world, error);
+  bool made =
+      create_bodies(world, description, error) && create_spheres(world, description, error) && go_on(world) &&
+      spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
+      spore_world_create_particles(world, description, error) && go_on(world) &&
+      ((spore_world_create_refinement(world) && prepare_sweeps(world)) || no_memory(error)) &&
+      spore_world_create_factors(world, error) && go_on(world) && spore_world_create_lod(world, description, error) &&
+      spore_lod_create_automation(world, description, error) && allocate_vectors(world, error) && go_on(world) &&
+      check_steps(world, error);
   if (spore_cancel_asked(world->cancel)) {
     spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
     return give_up(world);

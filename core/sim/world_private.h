@@ -91,6 +91,10 @@ static inline bool spore_body_is_static(const SporeBody *body) {
 static inline bool spore_body_goes_alone(const SporeBody *body) {
   return !spore_integrator(body->method.integrator)->implicit && body->model->type->rates;
 }
+/* Whether the elements of the body are met one after the other. */
+static inline bool spore_body_sweeps(const SporeBody *body) {
+  return spore_integrator(body->method.integrator)->sweeps && spore_model_sweeps(body->model);
+}
 /* Gravity on the body, less its buoyancy in air, m/s^2. */
 static inline SporeVec3 spore_body_gravity(const SporeWorld *world, const SporeBody *body) {
   return spore_vec3_scale(1 - body->model->buoyancy, world->state.gravity);

@@ -242,12 +242,26 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
   return count;
 }
 
+static bool prepare_sweep(SporeModel *model) {
+  Net *net = (Net *)model;
+  bool ordered = true;
+  for (int kind = 0; kind < KINDS && ordered; kind++)
+    ordered = spore_springs_order(&net->springs[kind], model->block_count);
+  return ordered;
+}
+
+static void sweep(SporeModel *model, const SporeSweep *at) {
+  assert(model->type == &spore_mass_spring_net);
+  spore_springs_sweep(((Net *)model)->springs, KINDS, at);
+}
+
 static void mend(SporeModel *model) {
   Net *net = (Net *)model;
   if (net->ties.gone) spore_net_ties_mend(&net->ties);
 }
 
 static const SporeModelCut cutting = {.prepare = prepare_cut, .cut = cut, .tear = tear, .tie = tie};
+static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .sweep = sweep};
 static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
 
 const SporeModelType spore_mass_spring_net = {
@@ -275,4 +289,5 @@ const SporeModelType spore_mass_spring_net = {
     .mend = mend,
     .cut = &cutting,
     .heat = &heating,
+    .sweep = &sweeping,
 };

@@ -27,6 +27,7 @@ void spore_springs_clear(SporeSprings *springs) {
   spore_free(springs->diagonal);
   spore_free(springs->share);
   spore_free(springs->dose);
+  spore_free(springs->sweep.batches);
   *springs = (SporeSprings){0};
 }
 

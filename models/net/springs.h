@@ -7,6 +7,7 @@
 #include "core/math/simd.h"
 #include "core/math/vec3.h"
 #include "core/body/model.h"
+#include "models/net/springs_sweep.h"
 
 /* A spring between nodes at distance l pulls with stiffness (l - length) along the line between the nodes, and damps
  * the rate of that distance. Where the nodes meet and there is no line, the line at rest takes its place.
@@ -27,7 +28,7 @@ typedef struct SporeSpringsLines {
   double *along; /* slot x 4 x lane: the lines, x y z, 0 where there is no spring, and one over the square of each */
 } SporeSpringsLines;
 
-typedef struct SporeSprings {
+struct SporeSprings {
   size_t chunk_count;    /* of the model */
   uint32_t *chunk_start; /* chunk_count + 1: its first group */
   size_t group_count;
@@ -46,7 +47,8 @@ typedef struct SporeSprings {
   double *dose;         /* as share: how far coagulated, 0 to 1 */
   double damping;       /* N s/m, of each */
   SporeSpringsLines *lines;
-} SporeSprings;
+  SporeSpringsSweep sweep; /* empty where no spore_springs_order was asked for */
+};
 
 /* One spring for each pair of nodes, `keys` as in SporePairs; no pair twice. rest: node_count x 3, borrowed. Stiffness
  * and damping are left 0. False: no memory; *springs may then be cleared. */

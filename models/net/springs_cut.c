@@ -37,6 +37,7 @@ void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole
   memcpy(springs->length, whole->length, lanes * sizeof *whole->length);
   memcpy(springs->is_run, whole->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
   springs->lines->ready = false;
+  springs->sweep.stale = true;
   for (size_t i = 0; springs->share && i < lanes; i++) springs->share[i] = 1, springs->dose[i] = 0;
 }
 
@@ -80,6 +81,7 @@ static void empty(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_
   springs->block[at] = springs->diagonal[whole->place[a]];
   springs->is_run[at / SPORE_LANES] = false;
   springs->lines->ready = false;
+  springs->sweep.stale = true;
 }
 
 bool spore_springs_part(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b) {
@@ -109,6 +111,7 @@ static bool coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, siz
   springs->dose[at] += dose;
   springs->length[at] -= heat->shrinkage * dose * whole->length[at];
   springs->share[at] += (heat->stiffening - 1) * dose;
+  springs->sweep.stale = true;
   return dose > 0;
 }
 

@@ -5,23 +5,7 @@
 #include <math.h>
 
 #include "models/common/block_rows.h"
-
-/* Below this part of the rest length a spring has no direction of its own. */
-#define SHORT 1e-9
-
-/* Directions of springs that have none: the direction at rest, at a length that loses nothing to rounding. */
-static __attribute__((noinline)) SporeVd3 lines_at_rest(const SporeSprings *springs, const uint32_t *node, size_t slot,
-                                                        SporeVd3 line, SporeVl is_short) {
-  for (int i = 0; i < SPORE_WIDTH; i++) {
-    if (!is_short[i]) continue;
-    SporeVec3 a = spore_vec3_load(springs->rest + 3 * (size_t)node[i]);
-    SporeVec3 b = spore_vec3_load(springs->rest + 3 * (size_t)springs->neighbour[slot + (size_t)i]);
-    SporeVec3 along = spore_vec3_normalise(spore_vec3_sub(a, b), (SporeVec3){0, 0, 0});
-    along = spore_vec3_scale(SHORT * springs->length[slot + (size_t)i], along);
-    line.x[i] = along.x, line.y[i] = along.y, line.z[i] = along.z;
-  }
-  return line;
-}
+#include "models/net/springs_lines.h"
 
 /* The values of x (three entries a node) at the neighbours in the slot. */
 SPORE_INLINE SporeVd3 at_neighbours(const SporeSprings *springs, size_t slot, const double *x) {
@@ -30,24 +14,11 @@ SPORE_INLINE SporeVd3 at_neighbours(const SporeSprings *springs, size_t slot, co
                                              : spore_vd3_gather(x, neighbour);
 }
 
-/* The line, or the line at rest where the line is too short; *square: the square of its length, above 0. */
-SPORE_INLINE SporeVd3 not_short(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 line,
-                                SporeVd length, SporeVd *square) {
-  *square = spore_vd3_dot(line, line);
-  SporeVl is_short = *square < SHORT * SHORT * length * length;
-  if (__builtin_expect(spore_vl_any(is_short), 0)) {
-    line = lines_at_rest(springs, node, slot, line, is_short);
-    *square = spore_vd3_dot(line, line);
-  }
-  *square += 1e-300;
-  return line;
-}
-
 /* From the neighbours in the slot to the nodes. */
 SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 position,
                               const double *q, SporeVd length, SporeVd *square) {
   SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
-  return not_short(springs, node, slot, line, length, square);
+  return spore_line_not_short(springs->rest, node, springs->neighbour + slot, line, length, square);
 }
 
 /* How many of the SPORE_WIDTH lanes from `first` hold nodes. */
@@ -109,7 +80,7 @@ SPORE_INLINE SporeVd stiffness_at(const SporeSprings *springs, size_t slot, doub
 SPORE_INLINE SporeVd3 moved_line(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 line,
                                  SporeVd3 speed, double h, SporeVd length, SporeVd *square) {
   line.x += h * speed.x, line.y += h * speed.y, line.z += h * speed.z;
-  return not_short(springs, node, slot, line, length, square);
+  return spore_line_not_short(springs->rest, node, springs->neighbour + slot, line, length, square);
 }
 
 /* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as lines->along. Nodes that meet with L = 0 feel nothing. */
@@ -128,8 +99,10 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const do
       if (damped >= DAMPED_ALONG_LINES) before = load_line(lines_at(springs, slot));
       if (damped != MOVED_FROM_LINES) line = line_of(springs, node, slot, position, q, length, &square);
       else line = moved_line(springs, node, slot, before, speed, h, length, &square);
-      SporeVd pull = stiffness_at(springs, slot, springs->stiffness, shared) * (1 - length / spore_vd_sqrt(square));
-      if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
+      SporeVd inverse_length = 1 / spore_vd_sqrt(square);
+      SporeVd pull = stiffness_at(springs, slot, springs->stiffness, shared) * (1 - length * inverse_length);
+      if (damped == DAMPED_AT_Q)
+        pull += springs->damping * spore_vd3_dot(line, speed) * (inverse_length * inverse_length);
       if (damped >= DAMPED_ALONG_LINES) {
         SporeVd inverse = load_inverse_square(lines_at(springs, slot));
         SporeVd drag = springs->damping * (spore_vd3_dot(before, speed) * inverse);

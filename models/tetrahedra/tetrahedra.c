@@ -13,6 +13,7 @@
 #include "models/tetrahedra/cut.h"
 #include "models/tetrahedra/elements.h"
 #include "models/tetrahedra/heat.h"
+#include "models/tetrahedra/sweep.h"
 #include "models/tetrahedra/map.h"
 
 #define LOCKS 0.45 /* Poisson's ratio above which elements of four nodes are said to be too stiff */
@@ -45,6 +46,7 @@ typedef struct Body {
   bool locks;
   SporeTetrahedraHeat heated;
   SporeTetrahedraCut cut;
+  SporeTetrahedraSweep sweep; /* empty where none was asked for */
   double density, cut_reserve, spare_mass;
 } Body;
 
@@ -80,6 +82,7 @@ static void destroy(SporeModel *model) {
   spore_tetrahedra_clear(&body->tetrahedra);
   spore_tetrahedra_heat_clear(&body->heated);
   spore_tetrahedra_cut_clear(&body->cut);
+  spore_tetrahedra_sweep_clear(&body->sweep);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -237,6 +240,7 @@ static bool prepare_heat(SporeModel *model) {
 static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
   assert(((const Body *)model)->heated.whole);
   Body *body = (Body *)model;
+  body->sweep.stale = true;
   return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
 }
 
@@ -286,6 +290,7 @@ static size_t split(SporeModel *model, double *q, double *v, const uint32_t **fr
   Body *body = (Body *)model;
   size_t made = spore_tetrahedra_cut_part(&body->cut, &body->tetrahedra, model->block_mass, q, v);
   model->spare_count -= made;
+  body->sweep.stale = true;
   *from = body->cut.from + (body->cut.made - made);
   return made;
 }
@@ -299,6 +304,7 @@ static const uint32_t *corners(const SporeModel *model, size_t *count) {
 /* Spares have next to no mass again. */
 static void mend(SporeModel *model) {
   Body *body = (Body *)model;
+  body->sweep.stale = true;
   spore_tetrahedra_cool(&body->tetrahedra, &body->heated);
   for (size_t i = 0; i < body->cut.made; i++) model->block_mass[body->nodes.count + i] = body->spare_mass;
   model->spare_count += body->cut.made;
@@ -311,6 +317,33 @@ static const char *notice(const SporeModel *model, const double *q) {
            "cut_reserve");
 }
 
+/* Viscosity resists along many directions at once, and a quadratic element has too many nodes. */
+static bool can_sweep(const SporeModel *model) {
+  const Body *body = (const Body *)model;
+  return !body->tetrahedra.middles && body->elasticity.viscosity == 0;
+}
+
+static bool prepare_sweep(SporeModel *model) {
+  Body *body = (Body *)model;
+  return body->tetrahedra.middles || spore_tetrahedra_sweep_create(&body->sweep, &body->tetrahedra, model->node_count);
+}
+
+/* Damping by mass takes part in the way that is left, implicitly. */
+static void damp_sweep(const SporeSweep *at, size_t nodes, double coefficient) {
+  double left = 1 / (1 + at->h * coefficient);
+  for (size_t i = 0; coefficient > 0 && i < nodes; i++)
+    for (size_t k = 0; k < 3; k++)
+      at->now[4 * i + k] = at->before[3 * i + k] + left * (at->now[4 * i + k] - at->before[3 * i + k]);
+}
+
+static void sweep(SporeModel *model, const SporeSweep *at) {
+  assert(model->type == &spore_neo_hookean_tetrahedra);
+  Body *body = (Body *)model;
+  damp_sweep(at, model->node_count, body->mass_damping);
+  spore_tetrahedra_sweep(&body->sweep, &body->tetrahedra, body->elasticity, at);
+}
+
+static const SporeModelSweep sweeping = {.can = can_sweep, .prepare = prepare_sweep, .sweep = sweep};
 static const SporeModelCut cutting = {.reserve = reserve, .cut = cut, .split = split, .corners = corners};
 static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
 
@@ -361,6 +394,7 @@ const SporeModelType spore_neo_hookean_tetrahedra = {
         "small strains; an implicit step costs somewhat more. With few linear elements across or a Poisson's "
         "ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a fifth."),
     .create = create_neo_hookean,
+    .sweep = &sweeping,
     SLOTS,
 };
 

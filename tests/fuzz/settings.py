@@ -23,7 +23,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import tap  # noqa: E402
 
 RNG = "{http://relaxng.org/ns/structure/1.0}"
-INTEGRATORS = ("explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint", "bdf2",
+INTEGRATORS = ("explicit_euler", "symplectic_euler", "verlet", "rk4", "position_based", "implicit_euler", "implicit_midpoint", "bdf2",
                "tr_bdf2", "static")
 SECTIONS = ("environment", "solver", "bodies", "links", "tools")
 COUNT_MOST = 24        # of what is generated: control points, substeps; larger ones only take longer

@@ -56,7 +56,7 @@ static void check_nodes(void) {
     for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? w[i / 3] * a[i] : b[i]));
     memcpy(y, b, sizeof y);
     spore_nodes_kick(nodes, y, 0.3, a, w);
-    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + 0.3 * a[i] / w[i / 3] : b[i]));
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + a[i] * (0.3 / w[i / 3]) : b[i]));
     long double sum = 0;
     for (size_t i = 0; i < LONGEST; i++) w[i] = fabs(w[i]);
     for (size_t i = 0; i < 3 * nodes; i++) sum += (long double)a[i] * a[i] / w[i / 3];
@@ -73,6 +73,37 @@ static void check_nodes(void) {
     memcpy(y, b, sizeof y);
     spore_nodes_pull(nodes, y, w, g);
     for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + w[i / 3] * g[i % 3] : b[i]));
+  }
+}
+
+/* Rows behind the last node stay as they are. */
+static void check_rows(void) {
+  enum { NODES = LONGEST / 3 };
+  double x0[LONGEST], v0[LONGEST], v[LONGEST], w[LONGEST], x1[LONGEST], v1[LONGEST], rows[4 * NODES];
+  const double part = 0.8, h = 0.01, reach = part * h;
+  for (size_t nodes = 0; nodes <= NODES; nodes++) {
+    fill(x0);
+    fill(v0);
+    fill(v);
+    fill(w);
+    memcpy(v1, v, sizeof v);
+    for (size_t i = 0; i < 4 * NODES; i++) rows[i] = 7;
+    for (size_t i = 0; i < LONGEST; i++) x1[i] = 7;
+    const SporeRowsStep step = {part, h, x0, v0, x1, v1};
+    spore_rows_predict(nodes, rows, &step, w);
+    for (size_t i = 0; i < 3 * NODES; i++) {
+      double *row = &rows[i / 3 * 4 + i % 3];
+      g_assert_true(*row == (i < 3 * nodes ? x0[i] + reach * (v0[i] + part * (v[i] - v0[i])) : 7));
+      if (i < 3 * nodes) *row += 0.1 * w[i];
+    }
+    for (size_t i = 0; i < NODES; i++) g_assert_true(rows[4 * i + 3] == (i < nodes ? 1 / w[i] : 7));
+    spore_rows_follow(nodes, rows, &step);
+    for (size_t i = 0; i < LONGEST; i++) {
+      double speed = v0[i] + part * (v[i] - v0[i]), moved = i < 3 * nodes ? rows[i / 3 * 4 + i % 3] : 0;
+      speed += 1 / reach * (moved - (x0[i] + reach * speed));
+      g_assert_true(x1[i] == (i < 3 * nodes ? x0[i] + h * speed : 7));
+      g_assert_true(v1[i] == (i < 3 * nodes ? v0[i] + 1 / part * (speed - v0[i]) : v[i]));
+    }
   }
 }
 
@@ -101,6 +132,7 @@ static void at_each_level(void (*check)(void)) {
 
 static void test_values(void) { at_each_level(check_values); }
 static void test_nodes(void) { at_each_level(check_nodes); }
+static void test_rows(void) { at_each_level(check_rows); }
 static void test_within(void) { at_each_level(check_within); }
 
 static void test_instruction_sets(void) {
@@ -128,6 +160,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/vector/names", test_names);
   g_test_add_func("/vector/values", test_values);
   g_test_add_func("/vector/nodes", test_nodes);
+  g_test_add_func("/vector/rows", test_rows);
   g_test_add_func("/vector/within", test_within);
   g_test_add_func("/vector/instruction-sets", test_instruction_sets);
   int status = g_test_run();

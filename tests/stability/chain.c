@@ -57,12 +57,27 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   tangent(model, &at, matrix);
 }
 
+static bool prepare_sweep(SporeModel *model) {
+  const Chain *chain = (const Chain *)model;
+  bool ordered = true;
+  for (size_t i = 0; i < chain->count; i++)
+    ordered = ordered && spore_springs_order(&chain->springs[i], model->block_count);
+  return ordered;
+}
+
+static void sweep(SporeModel *model, const SporeSweep *at) {
+  const Chain *chain = (const Chain *)model;
+  spore_springs_sweep(chain->springs, chain->count, at);
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Chain *chain = (const Chain *)model;
   g_assert_true(count == 0 ||
                 (count == model->block_count && !memcmp(points, chain->rest, 3 * count * sizeof(double))));
   return spore_mapping_init_identity(mapping, count);
 }
+
+static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .sweep = sweep};
 
 static const SporeModelType type = {.name = "chain",
                                     .label = "Chain",
@@ -74,6 +89,7 @@ static const SporeModelType type = {.name = "chain",
                                     .map = map,
                                     .pattern = pattern,
                                     .jacobian = jacobian,
+                                    .sweep = &sweeping,
                                     .tangent = tangent};
 
 static void find_blocks(Chain *chain) {

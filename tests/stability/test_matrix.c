@@ -123,6 +123,7 @@ static double energy_scale(const SporeWorld *world, double h) {
  * as the scene has, and until the monitor steps in as much as that lets pass (energy_watch.c). */
 static double allowed_rise(SporeIntegratorKind kind, gboolean made_safer) {
   if (made_safer) return 20;
+  if (kind == SPORE_INTEGRATOR_POSITION_BASED) return 0.1; /* strain that the first sweeps leave; more is told */
   return kind == SPORE_INTEGRATOR_IMPLICIT_MIDPOINT ? 1 : 0.05;
 }
 

@@ -113,11 +113,12 @@ static uint32_t offender(const SporeWorld *world) {
   return index;
 }
 
-/* A method that made so much energy will make more, so the body goes on by a safe one. */
+/* A method that made so much energy will make more, so the body goes on by a safe one. Not where elements are met one
+ * after the other: what was not met yet is strained, and so has energy, but no step makes it grow. */
 static void mend(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   world->state.monitor.energy++;
-  if (body->model->type->rates) return;
+  if (body->model->type->rates || spore_body_sweeps(body)) return;
   body->method.integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
   world->solve.watch.started = false;
   spore_world_report(world,
@@ -127,10 +128,10 @@ static void mend(SporeWorld *world, uint32_t index) {
 }
 
 /* Share of the energy at work that steps may make. It swings at first, and explicit Euler makes m g^2 h t / 2 in free
- * fall, 1 / (2 n) of what is at work after n steps. */
-static double bound_after(uint32_t steps, bool explicit) {
+ * fall, 1 / (2 n) of what is at work after n steps. evaluated: the method only evaluates forces. */
+static double bound_after(uint32_t steps, bool evaluated) {
   if (steps < FEW_LOOKS) return HUGE_VAL;
-  return explicit && steps < SPORE_STEPS_BETWEEN_LOOKS ? GAIN * SPORE_STEPS_BETWEEN_LOOKS / steps : GAIN;
+  return evaluated && steps < SPORE_STEPS_BETWEEN_LOOKS ? GAIN * SPORE_STEPS_BETWEEN_LOOKS / steps : GAIN;
 }
 
 static void look(SporeWorld *world) {
@@ -144,7 +145,8 @@ static void look(SporeWorld *world) {
   if (!(share > GAIN)) return;
   uint32_t body = offender(world);
   if (body == SPORE_NO_BODY) return;
-  if (share > bound_after(watch->steps, is_explicit(&world->bodies[body])))
+  bool evaluated = is_explicit(&world->bodies[body]) && !spore_body_sweeps(&world->bodies[body]);
+  if (share > bound_after(watch->steps, evaluated))
     spore_world_count_unsolved(world, body, SPORE_UNSOLVED_ENERGY, share);
   bool damped = spore_integrator(world->bodies[body].method.integrator)->damping == SPORE_DAMPING_FAST;
   if (share > (damped ? GAIN_TO_MEND_DAMPED : GAIN_TO_MEND)) mend(world, body);

@@ -12,9 +12,11 @@ static void add_body_forces(const SporeIslandSystem *system, const double *q, co
     if (spore_island_system_leaves(system, body)) continue;
     const SporeModelType *type = body->model->type;
     bool still = spore_body_is_static(body);
-    if (type->force_along && system->shape_s > 0 && !still)
+    bool met = system->sweeping && spore_model_sweeps(body->model);
+    if (!met && type->force_along && system->shape_s > 0 && !still)
       type->force_along(body->model, q + site->q, shape, v + site->v, system->shape_s, f + site->v);
-    else type->force(body->model, q + site->q, shape, still ? system->world->solve.still : v + site->v, f + site->v);
+    else if (!met)
+      type->force(body->model, q + site->q, shape, still ? system->world->solve.still : v + site->v, f + site->v);
     double gravity[3];
     spore_vec3_store(gravity, spore_body_gravity(system->world, body));
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
@@ -44,6 +46,29 @@ static void force(void *data, const double *q, const double *v, double *f) {
   add_body_forces(system, q, v, f);
   add_term_forces(system, q, v, f);
   spore_island_system_filter(system, f);
+}
+
+static void loose_force(void *data, const double *q, const double *v, double *f) {
+  SporeIslandSystem *system = data;
+  system->sweeping = true;
+  force(data, q, v, f);
+  system->sweeping = false;
+}
+
+static void sweep(void *data, double part, double h, const double *q0, const double *v0, double *q1, double *v1,
+                  double *rows) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_model_sweeps(body->model)) continue;
+    const SporeRowsStep step = {part, h, q0 + site->q, v0 + site->v, q1 + site->q, v1 + site->v};
+    double *now = rows + 4 * (site->v / 3);
+    spore_rows_predict(body->block_count, now, &step, body->model->block_mass);
+    for (size_t k = 0; k < body->held.count; k++) now[4 * (size_t)body->held.blocks[k] + 3] = 0;
+    body->model->type->sweep->sweep(body->model, &(SporeSweep){.h = part * h, .before = step.x0, .now = now});
+    spore_rows_follow(body->block_count, now, &step);
+  }
 }
 
 static void body_force(void *data, const double *q, const double *v, double *f) {
@@ -380,6 +405,8 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,
+                         .loose_force = loose_force,
+                         .sweep = sweep,
                          .set_time = set_time,
                          .set_mass = set_mass,
                          .kick = kick,

@@ -19,6 +19,7 @@ typedef struct SporeIslandSystem {
   double shape_s;        /* forces are evaluated where nodes moved from `shape` along v for this time; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* particles that go alone take part by their mass only: see multirate.c */
+  bool sweeping;         /* forces are those that no sweep meets */
   bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double drift_s;        /* the longest that bodies moved free of force at once */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */

@@ -177,6 +177,7 @@ bool spore_world_body_damping(const SporeWorld *world, uint32_t index, double *s
   const SporeBody *body = &world->bodies[index];
   if (body->role != SPORE_PASSIVE || body->frozen || spore_body_is_static(body) || body->model->type->rates)
     return false;
+  if (spore_body_sweeps(body)) return false; /* what one element loses does not tell what a sweep over many does */
   SporeSwing swing;
   bool known = spore_model_is_rigid(body->model) ? pendulum_of(world, index, &swing) : spring_of(world, index, &swing);
   if (!known) return false;

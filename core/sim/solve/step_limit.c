@@ -117,7 +117,7 @@ static double stable_step(const SporeIntegrator *integrator, double square, doub
 /* One step of h seconds of the mode x' = v, v' = -w^2 x - d v, as a matrix on (w x, v, and h v' where it is kept). */
 static void step_matrix(const SporeIntegrator *integrator, double w, double d, double h, double m[9]) {
   double y = h * w, z = h * d;
-  if (integrator == &spore_symplectic_euler) {
+  if (integrator == &spore_symplectic_euler || integrator == &spore_position_based) {
     memcpy(m, (double[]){1 - y * y, y * (1 - z), 0, -y, 1 - z, 0, 0, 0, 0}, 9 * sizeof *m);
   } else if (integrator == &spore_verlet) {
     double kept[3] = {-y, -y * y - z, -0.5 * y * y - z};
@@ -246,6 +246,7 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     }
   }
   clear(&power);
+  if (integrator->sweeps && spore_model_sweeps(model)) limit->dt_s = limit->whole_dt_s = HUGE_VAL;
   return true;
 }
 
