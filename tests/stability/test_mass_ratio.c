@@ -74,8 +74,9 @@ static void case_42(gconstpointer data) {
 }
 
 int main(int argc, char **argv) {
-  static const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_IMPLICIT_EULER, SPORE_INTEGRATOR_BDF2,
-                                              SPORE_INTEGRATOR_TR_BDF2, SPORE_INTEGRATOR_STATIC};
+  static const SporeIntegratorKind kinds[] = {
+      SPORE_INTEGRATOR_VERLET, SPORE_INTEGRATOR_IMPLICIT_EULER, SPORE_INTEGRATOR_IMPLICIT_MIDPOINT,
+      SPORE_INTEGRATOR_BDF2,   SPORE_INTEGRATOR_TR_BDF2,        SPORE_INTEGRATOR_STATIC};
   g_test_init(&argc, &argv, NULL);
   for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++) {
     g_autofree char *name = g_strdup_printf("/stability/42_mass_ratio/%s", spore_integrator_names[kinds[k]]);
