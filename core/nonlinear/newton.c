@@ -51,6 +51,12 @@ static bool direction(const SporeSystem *system, const SporeNonlinearOptions *op
   return linear.status != SPORE_LINEAR_BREAKDOWN;
 }
 
+/* Whether no direction leads anywhere: a step that asks for what cannot be would take all iterations that it may, and
+ * each of them many linear ones. */
+static bool is_hopeless(const SporeConvergence *test, const SporeNonlinearResult *result) {
+  return result->linear_iterations > SPORE_HOPELESS_WORK && test->least > SPORE_HOPELESS * test->scale_r;
+}
+
 /* What the method does where it creeps. */
 typedef struct Creep {
   bool whole;   /* directions by the whole Jacobian. A alone leads from afar to the answer that has gained no energy */
@@ -115,7 +121,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   if (system->weigh) spore_differences_begin(&creep.differences, system, scratch + 9 * n);
   memcpy(best, x, n * sizeof *x);
   double previous = 0, near = spore_convergence_near(&test, system);
-  while (!result.converged && result.iterations < options->iterations && !spore_cancel_asked(system->cancel)) {
+  while (!result.converged && result.iterations < options->iterations && !is_hopeless(&test, &result) &&
+         !spore_cancel_asked(system->cancel)) {
     const double *before = result.iterations > 0 ? from : NULL;
     if (before || !options->linearised) linearise(system, &creep, x, before, &result);
     /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */

@@ -72,6 +72,10 @@ typedef struct SporeNonlinearResult {
   bool indefinite; /* the linear solver met a direction of negative curvature */
 } SporeNonlinearResult;
 
+/* A residual above that part of the load after so many linear iterations is hopeless: no more work is put into it. */
+#define SPORE_HOPELESS 0.5
+#define SPORE_HOPELESS_WORK 1000
+
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
  * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
  * count doubles. */

@@ -9,11 +9,13 @@
 
 #define STEPS 300
 #define MULTIPLE 10
+#define FEW 100 /* iterations that no step of a small body takes notice of */
 
 /* Of STEPS steps. */
 typedef struct Work {
   size_t iterations, evaluations; /* of the solvers; of forces */
   size_t pairs, contacts;         /* near pairs that are tested; terms */
+  size_t most;                    /* iterations of a single step */
 } Work;
 
 static Work work_of(SporeWorld *world) {
@@ -21,7 +23,9 @@ static Work work_of(SporeWorld *world) {
   for (int i = 0; i < STEPS; i++) {
     spore_world_step(world);
     SporeStepCounts counts = spore_world_counts(world);
-    work.iterations += counts.newton_iterations + counts.linear_iterations;
+    size_t iterations = counts.newton_iterations + counts.linear_iterations;
+    work.iterations += iterations;
+    work.most = MAX(work.most, iterations);
     work.evaluations += counts.force_evaluations;
     work.pairs += world->contact.grid ? world->contact.grid->pair_count : 0;
     work.contacts += counts.contacts;
@@ -30,9 +34,11 @@ static Work work_of(SporeWorld *world) {
 }
 
 static void assert_bounded(const char *what, Work work, Work normal, size_t spheres) {
-  g_test_message("%s: %zu iterations for %zu, %zu evaluations for %zu, %zu pairs for %zu, %zu contacts for %zu", what,
-                 work.iterations, normal.iterations, work.evaluations, normal.evaluations, work.pairs, normal.pairs,
-                 work.contacts, normal.contacts);
+  g_test_message("%s: %zu iterations for %zu, at most %zu a step for %zu, %zu evaluations for %zu, %zu pairs for %zu, "
+                 "%zu contacts for %zu",
+                 what, work.iterations, normal.iterations, work.most, normal.most, work.evaluations, normal.evaluations,
+                 work.pairs, normal.pairs, work.contacts, normal.contacts);
+  g_assert_cmpuint(work.most, <=, MULTIPLE * (normal.most + FEW));
   g_assert_cmpuint(work.iterations, <=, MULTIPLE * normal.iterations);
   g_assert_cmpuint(work.evaluations, <=, MULTIPLE * normal.evaluations);
   /* Where nothing is near, a step still goes over all spheres. */

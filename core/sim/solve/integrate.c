@@ -21,6 +21,10 @@ static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
   size_t spent = result->newton_iterations;
   effort->iterations -= spent < effort->iterations ? spent : effort->iterations;
   effort->given_up = !result->converged && !(result->residual <= effort->hopeless);
+  if (effort->linear > 0) {
+    effort->linear = effort->linear > result->linear_iterations ? effort->linear - result->linear_iterations : 1;
+    effort->given_up |= effort->linear == 1;
+  }
   return !effort->given_up;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/math/vector.h"
+#include "core/nonlinear/system.h"
 #include "core/sim/solve/island_system.h"
 
 #define SUBSTEPS_MAXIMUM 8
@@ -20,9 +21,8 @@
 #define EFFORT                                                                                                         \
   3 /* iterations of all smaller steps together, in those that a step may take; 1 after a hopeless step                \
      */
-/* A step is hopeless where each attempt misses this part of the load, or makes energy. After so many of them in a row,
- * which is work for nothing, the body that is pulled hardest is frozen. */
-#define HOPELESS 0.5
+/* A step is hopeless where each attempt misses SPORE_HOPELESS of the load, or makes energy. After so many of them in a
+ * row, which is work for nothing, the body that is pulled hardest is frozen. */
 #define HOPELESS_MOST 3
 #define ITERATIONS_MINIMUM                                                                                             \
   4 /* left for each smaller step, or the attempt is not begun; 1 where a step may take fewer */
@@ -252,7 +252,8 @@ static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
   size_t iterations = (spore_island_is_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
   SporeEffort effort = {.iterations = iterations};
-  for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
+  if (!(island->result.residual <= SPORE_HOPELESS)) effort.linear = SPORE_HOPELESS_WORK;
+  for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped && effort.linear != 1; substeps *= 2) {
     if (spore_cancel_asked(world->cancel)) return true;
     if (best.worth > WORTH_GAINED && effort.iterations < least * substeps * island->substeps) break;
     effort.hopeless = best.worth == WORTH_STEP ? MISS_OF_LOAD : HUGE_VAL;
@@ -265,7 +266,7 @@ static bool try_substeps(SporeWorld *world, SporeIsland *island) {
     helped = try_without_friction(world, island, iterations);
   if (!helped && best.worth > WORTH_NOTHING) restore_best(world, island, &best);
   set_pause(world, island, helped);
-  return helped || best.least < HOPELESS;
+  return helped || best.least < SPORE_HOPELESS;
 }
 
 /* The body that the forces of the last good state would accelerate most, each body as a whole. */

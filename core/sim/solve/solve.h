@@ -247,6 +247,7 @@ void spore_world_integrate(SporeWorld *world);
 /* What all attempts of recovery at one step may still take. */
 typedef struct SporeEffort {
   size_t iterations; /* nonlinear iterations left; a part of a step takes at least one */
+  size_t linear;     /* linear iterations left, of a step whose first attempt was hopeless; 0: as many as it takes */
   double hopeless;   /* relative residual: an attempt with a larger one is given up */
   bool given_up;     /* the attempt ended early: q1 and v1 are the state after some of its parts */
 } SporeEffort;
