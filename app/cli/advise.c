@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "app/cli/advise_budget.h"
 #include "app/cli/cli.h"
 #include "app/cli/scene.h"
 #include "core/measure/influence.h"
@@ -17,16 +18,10 @@
 #define LEAST_FLOOR 1e-6   /* of a body's length: nobody sees less */
 #define LEAST_FORCE_N 1e-4 /* no hand feels less */
 
-/* What happened in a run, besides motion. */
-typedef struct Events {
-  guint64 broken, torn, lost, cut, coagulated, taken, pierced, stitches, held;
-} Events;
-
 /* A run and the bodies that it followed. */
 typedef struct Replay {
   SporeTrialPoints points;
   SporeTrial trial;
-  Events events;
 } Replay;
 
 typedef struct Advice {
@@ -35,17 +30,6 @@ typedef struct Advice {
   double dt_s, interval_s;
   guint done, count; /* replays */
 } Advice;
-
-static Events events_of(const SporeWorld *world) {
-  const SporeMonitor *monitor = spore_world_monitor(world);
-  Events events = {.broken = monitor->broken_links, .torn = monitor->torn_springs, .lost = monitor->lost_holds};
-  for (gsize i = 0; i < spore_world_tool_count(world); i++) {
-    SporeToolState tool = spore_world_tool_state(world, i);
-    events.cut += tool.cut, events.taken += tool.taken, events.pierced += tool.pierced;
-    events.stitches += tool.stitches, events.held += tool.held;
-  }
-  return events;
-}
 
 static void clear_replay(Replay *replay) {
   spore_trial_clear(&replay->trial);
@@ -77,8 +61,6 @@ static gboolean replay(Advice *advice, const SporeVariation *variation, double p
     clear_replay(replay);
     return spore_error_propagate(&fault, error);
   }
-  replay->events = events_of(simulation->world);
-  replay->events.coagulated = replay->trial.coagulated;
   spore_progress(spore_cli_progress(advice->cli), (double)++advice->done / advice->count, _("replaying"));
   if (!replay->trial.cancelled) return TRUE;
   clear_replay(replay);
@@ -116,7 +98,8 @@ static gboolean try_form(Advice *advice, const Replay *full, guint32 body, const
   form->tried = true;
   form->influence = spore_influence_between(&full->points, &full->trial, &other.points, &other.trial);
   form->saved_us = evidence->step_us - step_us(&other.trial);
-  if (verdict == SPORE_VERDICT_EFFECT) evidence->events = memcmp(&full->events, &other.events, sizeof(Events)) != 0;
+  if (verdict == SPORE_VERDICT_EFFECT)
+    evidence->events = memcmp(&full->trial.events, &other.trial.events, sizeof(SporeTrialEvents)) != 0;
   clear_replay(&other);
   return TRUE;
 }
@@ -329,6 +312,15 @@ static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions 
   return good ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
+static int carry_out(SporeCli *cli, const char *scene, const SporeSceneOptions *options,
+                     const SporeBudgetRequest *budget) {
+  if (budget->budget) return spore_advise_budget(cli, scene, options, budget);
+  if (budget->keep || budget->seconds || budget->apply || budget->output)
+    return spore_cli_usage(_("--keep, --seconds, --apply, --output: they go with --budget-us; give a budget, or leave "
+                             "them out"));
+  return run_advice(cli, scene, options, budget->time);
+}
+
 int spore_command_advise(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"elements",
@@ -339,6 +331,14 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
           "takes), own_motion (by its length), verdict (physical, still, coarse, effect), reason, forms (that were "
           "tried: form, influence, worst, force_N, saved_us)")},
       {"suggestion", N_("what may be changed: id, change, saves_us")},
+      {"budget",
+       N_("with --budget-us, where elements tell the verdict (physical, or the level that is taken), integrator and "
+          "level of each body: budget_us (for per_s of simulated time), met, kept_promise, promise_us, runs (of "
+          "again_us), before and chosen (dt_s, nonlinear, linear, error: by the length of a body, resolved: it is more "
+          "than can be told, as_written, us: for per_s, step_us and p99_us of its own steps, again_us: median, low, "
+          "high), tried, start_s, time_s, contacts, floor, happens (what instruments do in one of the two alone), "
+          "applied, cut")},
+      {"scene", N_("file that was written, with --apply or --output")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "advise",
@@ -350,15 +350,33 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
       1,
       members};
   SporeSceneOptions options = {0};
-  char *time = NULL;
+  SporeBudgetRequest budget = {0};
   const GOptionEntry entries[] = {
-      {"time", 't', 0, G_OPTION_ARG_STRING, &time,
-       N_("Simulated time of each replay (default: the recorded input, up to 10 s; without one 1 s)"), "S"},
+      {"time", 't', 0, G_OPTION_ARG_STRING, &budget.time,
+       N_("Simulated time of each replay (default: the recorded input, up to 10 s; without one 1 s; with --budget-us "
+          "1 s with contacts in it)"),
+       "S"},
+      {"budget-us", 0, 0, G_OPTION_ARG_STRING, &budget.budget,
+       N_("Choose the level and integrator of each body, step and solvers, so that what a step of the scene simulates "
+          "now takes at most so many us on the processor, with the least error"),
+       "N"},
+      {"keep", 0, 0, G_OPTION_ARG_STRING_ARRAY, &budget.keep,
+       N_("With --budget-us: a body that keeps its level and integrator (may be repeated)"), "BODY"},
+      {"seconds", 0, 0, G_OPTION_ARG_STRING, &budget.seconds,
+       N_("With --budget-us: time on the processor that choosing may take (default 40)"), "S"},
+      {"apply", 0, 0, G_OPTION_ARG_NONE, &budget.apply, N_("With --budget-us: write what was chosen into the scene"),
+       NULL},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &budget.output,
+       N_("With --budget-us: write the scene so chosen to this file"), "F.spore"},
       SPORE_SCENE_OPTION_ENTRIES(options),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE) status = run_advice(cli, argv[1], &options, time);
+  if (status == SPORE_EXIT_DONE) status = carry_out(cli, argv[1], &options, &budget);
   spore_scene_options_clear(&options);
-  g_free(time);
+  g_free(budget.time);
+  g_free(budget.budget);
+  g_free(budget.seconds);
+  g_free(budget.output);
+  g_strfreev(budget.keep);
   return status;
 }

@@ -19,7 +19,8 @@ struct SporeAccuracySource {
   const SporeSimulation *simulation; /* of the document as it is */
   const SporeTrack *input;
   const char *body;
-  SporeTrack shifted; /* the input from start_s on; empty: from time 0 */
+  const char *const *kept; /* bodies that keep their level */
+  SporeTrack shifted;      /* the input from start_s on; empty: from time 0 */
   double start_s;
 };
 
@@ -64,14 +65,18 @@ static SporeDocument *document_with(const SporeAccuracySource *source, double fa
 static SporeWorld *make(void *data, const SporeAccuracyWorld *world, SporeError *error) {
   SporeAccuracySource *source = data;
   const SporeAccuracyMethod *method = world->method;
-  const SporeVariation variation = {.body = source->body,
-                                    .integrator = method ? name_of(spore_integrator_names, method->integrator) : NULL,
-                                    .nonlinear = method ? name_of(spore_nonlinear_names, method->nonlinear) : NULL,
-                                    .linear = method ? name_of(spore_linear_names, method->linear) : NULL,
-                                    .level = name_of(spore_lod_names, world->level),
-                                    .dt_s = world->dt_s,
-                                    .tolerance = world->tolerance,
-                                    .awake = world->awake};
+  SporeVariation variation = world->choice ? *(const SporeVariation *)world->choice : (SporeVariation){0};
+  variation.body = source->body;
+  variation.kept = source->kept;
+  if (method) {
+    variation.integrator = name_of(spore_integrator_names, method->integrator);
+    variation.nonlinear = name_of(spore_nonlinear_names, method->nonlinear);
+    variation.linear = name_of(spore_linear_names, method->linear);
+  }
+  if (world->level >= 0) variation.level = spore_lod_names[world->level];
+  if (world->dt_s > 0) variation.dt_s = world->dt_s;
+  variation.tolerance = world->tolerance;
+  variation.awake = world->awake;
   if (!shift(source, world->start_s, error)) return NULL;
   const SporeTrack *input = source->shifted.channel_count ? &source->shifted : source->input;
   source->worlds.document = document_with(source, world->spheres);
@@ -134,6 +139,8 @@ gboolean spore_accuracy_source_vary_spheres(SporeAccuracySource *source, const d
   }
   return TRUE;
 }
+
+void spore_accuracy_source_keep(SporeAccuracySource *source, const char *const *bodies) { source->kept = bodies; }
 
 SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source) {
   SporeDocument *document = source->document;

@@ -19,7 +19,9 @@ void spore_accuracy_source_free(SporeAccuracySource *source);
  */
 gboolean spore_accuracy_source_vary_spheres(SporeAccuracySource *source, const double *factors, gsize count,
                                             const SporeProgress *progress, GError **error);
-/* The study's way to the document, valid as long as the source is. */
+/* Bodies that keep their level at every level of a study; NULL at the end, borrowed. */
+void spore_accuracy_source_keep(SporeAccuracySource *source, const char *const *bodies);
+/* The study's way to the document, valid as long as the source is. The choice of a world is a SporeVariation. */
 SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source);
 
 #endif

@@ -131,8 +131,8 @@ static gboolean set_step(SporeDocument *document, SporeObject *measured, double 
   return spore_document_set(document, measured, (guint)property, &value, error);
 }
 
-static char *date_of(const SporeAccuracyStudy *study) {
-  g_autoptr(GDateTime) time = g_date_time_new_from_unix_utc(study->time);
+static char *date_of(gint64 unix_s) {
+  g_autoptr(GDateTime) time = g_date_time_new_from_unix_utc(unix_s);
   return g_date_time_format(time, "%Y-%m-%dT%H:%M:%SZ");
 }
 
@@ -143,19 +143,18 @@ static SporeObject *renew(SporeDocument *document, GError **error) {
   return spore_document_insert(document, meta, "measured", NULL, G_MAXUINT, error);
 }
 
-static gboolean remember(const SporeAccuracyStudy *study, gsize index, SporeDocument *document, GError **error) {
-  const SporeAccuracyReport *report = study->report;
-  const SporeAccuracyPoint *point = &report->points[index];
+gboolean spore_measured_remember(SporeDocument *document, const SporeMeasurement *what, GError **error) {
+  const SporeAccuracyReport *report = what->report;
   SporeObject *measured = renew(document, error);
   const SporeAccuracyReference *reference = &report->reference;
-  g_autofree char *date = date_of(study), *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", study->hashes[index]);
-  return measured && set_text(document, measured, "method", report->methods[point->method].label, error) &&
-         set_step(document, measured, point->dt_s, error) &&
-         set_text(document, measured, "level", point->level < 0 ? NULL : spore_lod_names[point->level], error) &&
-         set_text(document, measured, "body", study->body, error) &&
-         set_figure(document, measured, "error", point->error, error) &&
-         set_figure(document, measured, "floor", report->floor, error) &&
-         set_figure(document, measured, "step_cost", 1e-6 * point->us_per_step, error) &&
+  g_autofree char *date = date_of(what->time),
+                  *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_document_run_hash(document));
+  return measured && set_text(document, measured, "method", what->method, error) &&
+         set_step(document, measured, what->dt_s, error) && set_text(document, measured, "level", what->level, error) &&
+         set_text(document, measured, "body", what->body, error) &&
+         set_figure(document, measured, "error", what->error, error) &&
+         set_figure(document, measured, "floor", what->floor, error) &&
+         set_figure(document, measured, "step_cost", what->step_s, error) &&
          (!report->statistics || set_text(document, measured, "statistics", "true", error)) &&
          set_text(document, measured, "reference", report->methods[reference->method].label, error) &&
          set_figure(document, measured, "reference_step", reference->dt_s, error) &&
@@ -163,6 +162,21 @@ static gboolean remember(const SporeAccuracyStudy *study, gsize index, SporeDocu
          set_figure(document, measured, "start", report->start_s, error) &&
          set_figure(document, measured, "duration", report->time_s, error) &&
          set_text(document, measured, "date", date, error) && set_text(document, measured, "scene_hash", hash, error);
+}
+
+static gboolean remember(const SporeAccuracyStudy *study, gsize index, SporeDocument *document, GError **error) {
+  const SporeAccuracyReport *report = study->report;
+  const SporeAccuracyPoint *point = &report->points[index];
+  const SporeMeasurement what = {.method = report->methods[point->method].label,
+                                 .dt_s = point->dt_s,
+                                 .level = point->level < 0 ? NULL : spore_lod_names[point->level],
+                                 .body = study->body,
+                                 .error = point->error,
+                                 .floor = report->floor,
+                                 .step_s = 1e-6 * point->us_per_step,
+                                 .report = report,
+                                 .time = study->time};
+  return spore_measured_remember(document, &what, error);
 }
 
 gboolean spore_accuracy_study_apply(const SporeAccuracyStudy *study, gsize point, SporeDocument *document,

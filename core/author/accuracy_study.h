@@ -31,6 +31,19 @@ gssize spore_accuracy_study_find(const SporeAccuracyStudy *study, guint64 run_ha
 gboolean spore_accuracy_study_apply(const SporeAccuracyStudy *study, gsize point, SporeDocument *document,
                                     GError **error);
 
+/* What is to be remembered of a run that was measured. */
+typedef struct SporeMeasurement {
+  const char *method; /* and solvers, as in the file */
+  double dt_s;
+  const char *level, *body;          /* NULL: the scene's; all that physics moves */
+  double error, floor, step_s;       /* by a body's length; step_s: what a step of dt_s took */
+  const SporeAccuracyReport *report; /* that it was judged in */
+  gint64 time;                       /* Unix time, s */
+} SporeMeasurement;
+/* Remembers in meta/measured what was measured of the document as it is now, instead of what it remembers. Call it
+ * inside a group. FALSE with a GError. */
+gboolean spore_measured_remember(SporeDocument *document, const SporeMeasurement *measurement, GError **error);
+
 /* What the scene remembers of a study. */
 typedef enum SporeMeasured {
   SPORE_MEASURED_NOT,

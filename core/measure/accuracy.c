@@ -81,12 +81,12 @@ static bool choose_methods(SporeStudy *study, const SporeWorld *world) {
                                               SPORE_INTEGRATOR_SYMPLECTIC_EULER,  SPORE_INTEGRATOR_RK4};
   static const SporeIntegratorKind explicit[] = {SPORE_INTEGRATOR_VERLET, SPORE_INTEGRATOR_SYMPLECTIC_EULER,
                                                  SPORE_INTEGRATOR_RK4, SPORE_INTEGRATOR_EXPLICIT_EULER};
-  const SporeAccuracyOptions *options = study->options;
+  const SporeAccuracyOptions *options = &study->options;
   for (size_t m = 0; m < options->method_count; m++)
     if (!add_method(study, &options->methods[m])) return false;
   if (options->method_count > 0) return true;
   bool alone = is_all_particles(study, world);
-  SporeAccuracyMethod own = {study->scene->own.integrator, -1, -1};
+  SporeAccuracyMethod own = {study->scene.own.integrator, -1, -1};
   if (own.integrator >= 0 && own.integrator != SPORE_INTEGRATOR_STATIC && !add_method(study, &own)) return false;
   size_t count = alone ? sizeof explicit / sizeof *explicit : sizeof usual / sizeof *usual;
   for (size_t m = 0; m < count; m++)
@@ -113,13 +113,14 @@ static double step_limit(const SporeStudy *study, const SporeWorld *world, Spore
 }
 
 static double high_step(const SporeStudy *study) {
-  if (study->options->dt_count > 0) return study->options->dt_high_s;
-  return fmin(LONGEST_STEP_S, fmax(4 * study->scene->dt_s, LEAST_HIGH_S));
+  if (study->options.dt_count > 0) return study->options.dt_high_s;
+  double dt_s = study->scene.dt_s, high_s = fmin(LONGEST_STEP_S, fmax(4 * dt_s, LEAST_HIGH_S));
+  return dt_s * fmax(1, round(high_s / dt_s));
 }
 
 /* Step i of a method whose largest one is given. */
 static double step_at(const SporeStudy *study, double high_s, size_t i) {
-  const SporeAccuracyOptions *options = study->options;
+  const SporeAccuracyOptions *options = &study->options;
   double part = options->dt_count > 1 ? (double)i / (double)(options->dt_count - 1) : 0;
   double wanted = options->dt_count > 0 ? high_s * pow(options->dt_low_s / high_s, part) : high_s / (double)(1u << i);
   return spore_trial_step(study->report->interval_s, wanted);
@@ -127,7 +128,7 @@ static double step_at(const SporeStudy *study, double high_s, size_t i) {
 
 static double first_step(const SporeStudy *study, const SporeWorld *world, size_t method) {
   double high_s = high_step(study);
-  if (study->options->dt_count > 0) return high_s;
+  if (study->options.dt_count > 0) return high_s;
   double limit_s = step_limit(study, world, study->report->methods[method].method.integrator);
   return fmax(fmin(high_s, limit_s), LEAST_FIRST_S);
 }
@@ -141,13 +142,13 @@ typedef struct Pair { /* a method at a level */
 /* Halves the first step of a method until the scene is made with it, where nobody asked for that step: particles beside
  * other bodies keep their method and bear less. False: the study ended. */
 static bool lower_first_step(SporeStudy *study, Pair *pair) {
-  for (int i = 0; study->options->dt_count == 0 && i < HALVINGS; i++) {
+  for (int i = 0; study->options.dt_count == 0 && i < HALVINGS; i++) {
     const SporeAccuracyWorld wanted = {.method = &study->report->methods[pair->method].method,
                                        .level = pair->level,
                                        .dt_s = step_at(study, pair->first_s, 0)};
     SporeError why = SPORE_ERROR_INIT;
-    SporeWorld *world = study->scene->make(study->scene->data, &wanted, &why);
-    if (world) study->scene->drop(study->scene->data, world);
+    SporeWorld *world = study->scene.make(study->scene.data, &wanted, &why);
+    if (world) study->scene.drop(study->scene.data, world);
     if (why.code == SPORE_ERROR_CANCELLED) return spore_error_set(study->error, why.code, NULL, "%s", why.message);
     if (world || wanted.dt_s * 0.5 < LEAST_FIRST_S) return true;
     pair->first_s = wanted.dt_s * 0.5;
@@ -163,7 +164,7 @@ static SporeStudyOutcome run_point(SporeStudy *study, size_t index) {
   SporeAccuracyPoint *point = &report->points[index];
   const SporeAccuracyFit *fit = &report->methods[point->method];
   const SporeAccuracyWorld world = {.method = &fit->method, .level = point->level, .dt_s = point->dt_s};
-  const SporeStudyRun how = {.most_s = study->options->full ? 0 : RUN_SHARE * study->most_s};
+  const SporeStudyRun how = {.most_s = study->options.full ? 0 : RUN_SHARE * study->most_s};
   SporeError why = SPORE_ERROR_INIT;
   SporeStudyOutcome outcome = spore_study_run(study, &world, &how, &study->trials[index], &why);
   if (outcome == SPORE_STUDY_TOO_LONG)
@@ -177,7 +178,7 @@ static SporeStudyOutcome run_point(SporeStudy *study, size_t index) {
 /* What the first `steps` steps of a method cost, by the first of them. */
 static double cost_of(const SporeStudy *study, size_t steps) {
   double ratio = 2, sum = 0;
-  const SporeAccuracyOptions *options = study->options;
+  const SporeAccuracyOptions *options = &study->options;
   if (options->dt_count > 1) ratio = pow(options->dt_high_s / options->dt_low_s, 1 / (double)(options->dt_count - 1));
   for (size_t i = 0; i < steps; i++) sum += pow(ratio, (double)i);
   return sum;
@@ -210,7 +211,7 @@ static double time_first_steps(SporeStudy *study, const Pair *pairs, size_t coun
 static bool fit_stretch(SporeStudy *study, const Pair *pairs, size_t count) {
   SporeAccuracyReport *report = study->report;
   double wanted_s = report->time_s, most_s = POINTS_SHARE * study->most_s;
-  if (study->options->full) return true;
+  if (study->options.full) return true;
   report->time_s = fmin(wanted_s, fmax(LEAST_TIME_S, 4 * report->interval_s));
   set_samples(study);
   double shortest_s = report->time_s, first_s = time_first_steps(study, pairs, count);
@@ -219,7 +220,7 @@ static bool fit_stretch(SporeStudy *study, const Pair *pairs, size_t count) {
   report->time_s = fmin(wanted_s, fmax(possible_s, shortest_s));
   set_samples(study);
   double each_s = first_s * report->time_s / shortest_s;
-  while (study->options->dt_count == 0 && study->steps < MOST_STEPS &&
+  while (study->options.dt_count == 0 && study->options.dt_most == 0 && study->steps < MOST_STEPS &&
          each_s * cost_of(study, study->steps + 1) <= most_s)
     study->steps++;
   if (report->time_s < wanted_s * (1 - 1e-9))
@@ -232,7 +233,7 @@ static bool is_too_much(const SporeStudy *study, double last_s, size_t done) {
   double most_s = RUN_SHARE * study->most_s;
   if (done >= LEAST_STEPS)
     most_s = fmin(most_s, 2 * POINTS_SHARE * study->most_s / (double)study->report->method_count);
-  return !study->options->full && 2 * last_s > most_s;
+  return !study->options.full && 2 * last_s > most_s;
 }
 
 /* All steps of a method at a level, the largest first, while there is time. */
@@ -260,7 +261,7 @@ static bool run_pair(SporeStudy *study, const Pair *pair) {
     if (outcome == SPORE_STUDY_TOO_LONG) left += study->steps - i - 1;
     if (outcome != SPORE_STUDY_RAN) break;
     last_s = spore_study_elapsed_s(study) - began_s;
-    study->costs[index * study->options->repeats] = study->trials[index].cpu_s / study->trials[index].simulated_s;
+    study->costs[index * study->options.repeats] = study->trials[index].cpu_s / study->trials[index].simulated_s;
     report->points[index].repeats = 1;
     report->point_count++;
   }
@@ -279,11 +280,11 @@ static bool run_points(SporeStudy *study, const Pair *pairs, size_t count) {
 static bool plan_and_run(SporeStudy *study, const SporeWorld *world) {
   SporeAccuracyReport *report = study->report;
   size_t levels = report->level_count > 0 ? report->level_count : 1, count = levels * report->method_count;
-  size_t most = count * (study->options->dt_count > 0 ? study->options->dt_count : MOST_STEPS);
+  size_t most = count * (study->options.dt_count > 0 ? study->options.dt_count : MOST_STEPS);
   Pair *pairs = SPORE_NEW_ARRAY(Pair, count);
   report->points = SPORE_NEW_ARRAY(SporeAccuracyPoint, most);
   study->trials = SPORE_NEW_ARRAY(SporeTrial, most);
-  study->costs = SPORE_NEW_ARRAY(double, most * study->options->repeats);
+  study->costs = SPORE_NEW_ARRAY(double, most * study->options.repeats);
   bool good = (pairs && report->points && study->trials && study->costs) || no_memory(study);
   for (size_t p = 0; good && p < count; p++) {
     size_t method = p % report->method_count;
@@ -306,18 +307,18 @@ static bool plan_and_run(SporeStudy *study, const SporeWorld *world) {
 
 /* Whether the run of a point takes so long that once is enough. */
 static bool is_long(const SporeStudy *study, size_t i) {
-  return !study->options->full && study->trials[i].cpu_s > LONG_SHARE * study->most_s;
+  return !study->options.full && study->trials[i].cpu_s > LONG_SHARE * study->most_s;
 }
 
 /* Timed runs of all points again, each round beginning with another one. */
 static bool repeat(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
   double round_s = 0;
-  size_t rounds = 1, wanted = study->options->repeats, count = report->point_count;
+  size_t rounds = 1, wanted = study->options.repeats, count = report->point_count;
   for (size_t i = 0; i < count; i++) round_s += is_long(study, i) ? 0 : study->trials[i].cpu_s;
   for (; rounds < wanted; rounds++) {
     double began_s = spore_study_elapsed_s(study);
-    if (!study->options->full && began_s + round_s > REPEATS_SHARE * study->most_s) break;
+    if (!study->options.full && began_s + round_s > REPEATS_SHARE * study->most_s) break;
     study->done = 0.55 + 0.4 * (double)rounds / (double)wanted;
     for (size_t k = 0; k < count; k++) {
       size_t i = (k + rounds * (count / wanted + 1)) % count;
@@ -346,10 +347,10 @@ static bool repeat(SporeStudy *study) {
 /* The study. */
 
 static bool begin(SporeStudy *study) {
-  const SporeAccuracyOptions *options = study->options;
+  const SporeAccuracyOptions *options = &study->options;
   SporeAccuracyReport *report = study->report;
   double high_s = high_step(study);
-  study->steps = options->dt_count > 0 ? options->dt_count : USUAL_STEPS;
+  study->steps = options->dt_count > 0 ? options->dt_count : options->dt_most > 0 ? options->dt_most : USUAL_STEPS;
   report->time_s = options->time_s > 0 ? options->time_s : USUAL_TIME_S;
   report->interval_s = high_s * fmax(1, ceil(report->time_s / high_s / SAMPLES - 1e-6));
   set_samples(study);
@@ -367,12 +368,12 @@ static bool begin(SporeStudy *study) {
 /* The scene as it is, of which points are chosen. */
 static SporeWorld *open_scene(SporeStudy *study) {
   const SporeAccuracyWorld world = {.level = study->report->level_count > 0 ? SPORE_LOD_FINE : -1};
-  SporeWorld *made = study->scene->make(study->scene->data, &world, study->error);
+  SporeWorld *made = study->scene.make(study->scene.data, &world, study->error);
   uint32_t body = SPORE_NO_BODY;
-  if (made && study->options->body) body = spore_world_find_body(made, study->options->body);
+  if (made && study->options.body) body = spore_world_find_body(made, study->options.body);
   if (made) study->body_count = spore_world_body_count(made);
   if (made && spore_trial_points_choose(&study->points, made, body, study->error)) return made;
-  if (made) study->scene->drop(study->scene->data, made);
+  if (made) study->scene.drop(study->scene.data, made);
   return NULL;
 }
 
@@ -383,47 +384,82 @@ static bool carry_out(SporeStudy *study) {
   bool good = choose_methods(study, world);
   if (good && study->report->level_count == 0) good = spore_study_find_window(study);
   good = good && plan_and_run(study, world);
-  study->scene->drop(study->scene->data, world);
+  study->scene.drop(study->scene.data, world);
   return good && spore_study_refer(study) && spore_study_compare_spheres(study) && repeat(study) &&
          (spore_study_judge(study) || no_memory(study));
 }
 
-static void clear(SporeStudy *study) {
+/* Frees the runs of the points: what is told of them stands in the report. The reference and the start stay. */
+static void clear_points(SporeStudy *study) {
   for (size_t i = 0; study->trials && i < study->report->point_count; i++) spore_trial_clear(&study->trials[i]);
   for (size_t i = 0; study->perturbed && i < study->perturbed_count; i++) spore_trial_clear(&study->perturbed[i]);
-  spore_trial_clear(&study->reference);
   spore_free(study->trials);
   spore_free(study->perturbed);
   spore_free(study->costs);
+  study->trials = study->perturbed = NULL;
+  study->costs = NULL;
+}
+
+static void clear(SporeStudy *study) {
+  clear_points(study);
+  spore_trial_clear(&study->reference);
   spore_study_forget_state(study);
   spore_trial_points_clear(&study->points);
+  spore_free(study);
 }
 
 SporeAccuracyReport *spore_accuracy_study(const SporeAccuracyScene *scene, const SporeAccuracyOptions *options,
                                           SporeError *error) {
-  SporeAccuracyOptions wanted = *options;
   SporeError unseen = SPORE_ERROR_INIT;
-  if (wanted.repeats == 0) wanted.repeats = USUAL_REPEATS;
-  SporeStudy study = {.scene = scene,
-                      .options = &wanted,
-                      .report = SPORE_NEW(SporeAccuracyReport),
-                      .most_s = options->most_s > 0 ? options->most_s : USUAL_MOST_S,
-                      .error = error ? error : &unseen};
+  SporeAccuracyReport *report = SPORE_NEW(SporeAccuracyReport);
+  SporeStudy *study = report ? SPORE_NEW(SporeStudy) : NULL;
   assert(scene->dt_s > 0);
-  study.started_s = spore_study_processor_s();
-  if (!study.report) {
-    no_memory(&study);
+  if (!study) {
+    spore_free(report);
+    no_memory(&(SporeStudy){.error = error ? error : &unseen});
     return NULL;
   }
-  bool good = carry_out(&study);
-  clear(&study);
-  if (good) return study.report;
-  spore_accuracy_report_free(study.report);
+  *study = (SporeStudy){.scene = *scene,
+                        .options = *options,
+                        .report = report,
+                        .most_s = options->most_s > 0 ? options->most_s : USUAL_MOST_S,
+                        .error = error ? error : &unseen,
+                        .started_s = spore_processor_s()};
+  if (study->options.repeats == 0) study->options.repeats = USUAL_REPEATS;
+  report->study = study;
+  bool good = carry_out(study);
+  clear_points(study);
+  study->error = NULL;
+  if (good) return report;
+  spore_accuracy_report_free(report);
   return NULL;
+}
+
+bool spore_accuracy_measure_more(SporeAccuracyReport *report, const SporeAccuracyWorld *world, bool timed_only,
+                                 SporeAccuracyPoint *point, SporeError *error) {
+  SporeStudy *study = report->study;
+  SporeError unseen = SPORE_ERROR_INIT, why = SPORE_ERROR_INIT;
+  SporeTrial trial;
+  const SporeStudyRun how = {.timed_only = timed_only, .most_s = study->options.full ? 0 : RUN_SHARE * study->most_s};
+  study->error = error ? error : &unseen;
+  SporeStudyOutcome outcome = spore_study_run(study, world, &how, &trial, &why);
+  study->error = NULL;
+  *point = (SporeAccuracyPoint){.level = world->level, .dt_s = world->dt_s, .error = HUGE_VAL, .cost = HUGE_VAL};
+  if (outcome == SPORE_STUDY_ENDED) return false;
+  if (outcome != SPORE_STUDY_RAN) return true;
+  double cost = trial.cpu_s / trial.simulated_s;
+  point->repeats = 1;
+  if (!timed_only) spore_study_judge_point(study, point, &trial, &cost);
+  point->cost = cost;
+  point->us_per_step = 1e6 * cost * trial.dt_s;
+  point->stable = trial.stable;
+  spore_trial_clear(&trial);
+  return true;
 }
 
 void spore_accuracy_report_free(SporeAccuracyReport *report) {
   if (!report) return;
+  if (report->study) clear(report->study);
   for (size_t i = 0; i < report->cut_count; i++) spore_free(report->cuts[i]);
   spore_free(report->cuts);
   spore_free(report->methods);

@@ -31,6 +31,7 @@ typedef struct SporeAccuracyWorld {
   double tolerance;                  /* of implicit steps; 0: the scene's */
   double start_s;                    /* the input begins there */
   bool awake;                        /* no body sleeps */
+  const void *choice;                /* what else differs, as whoever makes the worlds understands it; NULL: nothing */
 } SporeAccuracyWorld;
 
 /* Makes the worlds of a scene. */
@@ -55,6 +56,7 @@ typedef struct SporeAccuracyOptions {
   size_t sphere_count;   /* 0: the scene's spheres alone */
   double dt_low_s, dt_high_s;
   size_t dt_count; /* 0: chosen for each method */
+  size_t dt_most;  /* of those that are chosen; 0: 5, or up to 8 where there is time */
   double time_s;   /* simulated, of the stretch; 0: 1 s */
   double most_s;   /* on the processor; 0: 36 s */
   size_t repeats;  /* timed runs of each point; 0: 5 */
@@ -77,6 +79,7 @@ typedef struct SporeAccuracyPoint {
   double real_time_factor;
   double force_evaluations, newton, linear; /* a step */
   size_t repeats;                           /* timed runs */
+  SporeTrialEvents events;
   bool stable;
   bool as_written; /* every step was solved as the scene is written */
   bool resolved;   /* the error is above what the reference and the scene can tell */
@@ -130,18 +133,27 @@ typedef struct SporeAccuracyReport {
   double start_s, time_s, interval_s;
   double contacts; /* mean a step, in the reference */
   SporeAccuracyReference reference;
-  double growth;   /* how far a run drifted whose start was moved by 1e-8 of a body's length */
-  bool chaotic;    /* growth is above 1e-3 */
-  bool statistics; /* errors are of means over the stretch, not of positions */
-  double spread;   /* of these means over the perturbed runs */
-  double floor;    /* errors below it are not told apart from the reference's */
-  char *sentence;  /* translated: what it comes to */
+  double growth;            /* how far a run drifted whose start was moved by 1e-8 of a body's length */
+  bool chaotic;             /* growth is above 1e-3 */
+  bool statistics;          /* errors are of means over the stretch, not of positions */
+  double spread;            /* of these means over the perturbed runs */
+  double floor;             /* errors below it are not told apart from the reference's */
+  char *sentence;           /* translated: what it comes to */
+  struct SporeStudy *study; /* the reference and what it was run over, for spore_accuracy_measure_more */
 } SporeAccuracyReport;
 
 /* Runs it all. NULL with *error: the scene cannot run, no reference converges, no memory, or cancelled. */
 SporeAccuracyReport *spore_accuracy_study(const SporeAccuracyScene *scene, const SporeAccuracyOptions *options,
                                           SporeError *error);
 void spore_accuracy_report_free(SporeAccuracyReport *report);
+/* Seconds that the program has had on the processor. */
+double spore_processor_s(void);
+/* Runs one more world over the stretch of a report and judges it against the reference: *point, without a method. Its
+ * start_s is the stretch's. What the scene, its options' cancel and progress point to, must still be there. timed_only:
+ * only the cost, which is then of this run. A scene that cannot run so, or takes too long, gives a point that is not
+ * stable, of infinite error and cost. False with *error: cancelled, or no memory. */
+bool spore_accuracy_measure_more(SporeAccuracyReport *report, const SporeAccuracyWorld *world, bool timed_only,
+                                 SporeAccuracyPoint *point, SporeError *error);
 /* The work-precision plot: error over step, and error over cost, a line a method and level. Points whose error is not a
  * number stand above all others; empty points are not stable, ringed ones are the Pareto set. */
 typedef struct SporeAccuracyPlot {

@@ -36,9 +36,8 @@ static double energy_drift(const SporeTrial *trial, const SporeTrial *reference)
   return work > 0 ? worst / work : 0;
 }
 
-static void judge_point(SporeStudy *study, size_t i) {
-  SporeAccuracyPoint *point = &study->report->points[i];
-  const SporeTrial *trial = &study->trials[i];
+void spore_study_judge_point(const SporeStudy *study, SporeAccuracyPoint *point, const SporeTrial *trial,
+                             double *costs) {
   SporeTrialDifference apart = spore_trial_difference(&study->points, &study->reference, trial);
   double steps = fmax(1, (double)trial->steps);
   point->error = study->report->statistics ? spore_study_mean_difference(study, &study->reference, trial) : apart.rms;
@@ -48,13 +47,14 @@ static void judge_point(SporeStudy *study, size_t i) {
   point->penetration = trial->penetration;
   point->gap = trial->gap;
   point->line_stretch = trial->line_stretch;
-  point->cost = spore_quantile(study->costs + i * study->options->repeats, point->repeats, 0.5);
+  point->cost = spore_quantile(costs, point->repeats, 0.5);
   point->us_per_step = 1e6 * point->cost * trial->dt_s;
   point->p99_us = trial->p99_us;
   point->real_time_factor = 1 / point->cost;
   point->force_evaluations = trial->force_evaluations / steps;
   point->newton = trial->newton / steps;
   point->linear = trial->linear / steps;
+  point->events = trial->events;
   point->stable = trial->stable;
   point->as_written = trial->unsolved == 0;
   point->resolved = point->stable && isfinite(point->error) && point->error >= study->report->floor;
@@ -115,8 +115,8 @@ static const SporeAccuracyPoint *usual(const SporeStudy *study) {
     for (size_t i = 0; i < report->point_count; i++) {
       const SporeAccuracyPoint *point = &report->points[i];
       const SporeAccuracyMethod *method = &report->methods[point->method].method;
-      if (own && method->integrator != study->scene->own.integrator) continue;
-      double off = fabs(log(point->dt_s / study->scene->dt_s));
+      if (own && method->integrator != study->scene.own.integrator) continue;
+      double off = fabs(log(point->dt_s / study->scene.dt_s));
       if (off < nearest) nearest = off, best = point;
     }
   return best;
@@ -179,7 +179,8 @@ bool spore_study_judge(SporeStudy *study) {
   int level = spore_study_finest_level(report);
   report->floor =
       fmax(RESOLVED * report->reference.own_error, report->statistics ? SPREADS * report->spread : report->growth);
-  for (size_t i = 0; i < report->point_count; i++) judge_point(study, i);
+  for (size_t i = 0; i < report->point_count; i++)
+    spore_study_judge_point(study, &report->points[i], &study->trials[i], study->costs + i * study->options.repeats);
   find_pareto(report);
   for (size_t m = 0; m < report->method_count; m++) fit_order(report, m, level);
   return say(study);

@@ -6,13 +6,13 @@
 #include "core/base/memory.h"
 #include "core/measure/accuracy_private.h"
 
-double spore_study_processor_s(void) {
+double spore_processor_s(void) {
   struct timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double spore_study_elapsed_s(const SporeStudy *study) { return spore_study_processor_s() - study->started_s; }
+double spore_study_elapsed_s(const SporeStudy *study) { return spore_processor_s() - study->started_s; }
 
 void spore_study_cut(SporeStudy *study, const char *format, ...) {
   SporeAccuracyReport *report = study->report;

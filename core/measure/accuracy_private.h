@@ -6,8 +6,8 @@
 
 /* A study while it runs. */
 typedef struct SporeStudy {
-  const SporeAccuracyScene *scene;
-  const SporeAccuracyOptions *options;
+  SporeAccuracyScene scene;
+  SporeAccuracyOptions options;
   SporeAccuracyReport *report;
   SporeTrialPoints points;
   SporeTrial *trials;    /* one a point of the report */
@@ -15,11 +15,12 @@ typedef struct SporeStudy {
   SporeTrial reference;  /* the run that errors are measured from */
   SporeTrial *perturbed; /* perturbed_count */
   size_t perturbed_count;
-  double **q, **v; /* of each body at the start; NULL: the stretch begins at time 0 */
+  double **q, **v;       /* of each body at the start; NULL: the stretch begins at time 0 */
+  SporeLodGrade *levels; /* which these are of */
   size_t body_count, samples;
   size_t steps;       /* of each method */
   double most_s;      /* on the processor, so that what else it does changes nothing */
-  double started_s;   /* by spore_study_processor_s */
+  double started_s;   /* by spore_processor_s */
   double until_s;     /* a single run ends there; 0: never */
   double done;        /* for progress, 0..1 */
   SporeError refusal; /* the last reason why the scene did not run by a method */
@@ -28,7 +29,7 @@ typedef struct SporeStudy {
 
 /* accuracy_notes.c: what all parts of the study ask. */
 /* Seconds that the thread has had on the processor: what the program does beside the study does not count. */
-double spore_study_processor_s(void);
+double spore_processor_s(void);
 /* The same since the study began. */
 double spore_study_elapsed_s(const SporeStudy *study);
 /* Adds a translated sentence to what was cut. */
@@ -58,8 +59,10 @@ SporeStudyOutcome spore_study_run(SporeStudy *study, const SporeAccuracyWorld *w
 /* accuracy_window.c: finds where input brings contacts, and the state there. False: study->error. */
 bool spore_study_find_window(SporeStudy *study);
 void spore_study_forget_state(SporeStudy *study);
-/* Puts a world at the start of the stretch. */
+/* Puts a world at the start of the stretch, which may be the state of another level: the first step changes it. */
 void spore_study_start(const SporeStudy *study, SporeWorld *world);
+/* Whether the first step did so. False: *why tells. */
+bool spore_study_started(const SporeStudy *study, const SporeWorld *world, SporeError *why);
 
 /* accuracy_reference.c: runs the reference, the second method and the perturbed runs. False: study->error. */
 bool spore_study_refer(SporeStudy *study);
@@ -75,7 +78,11 @@ double spore_study_difference(const SporeStudy *study, const SporeTrial *a, cons
 /* accuracy_spheres.c: what each set of spheres gives away, after the reference. False: study->error. */
 bool spore_study_compare_spheres(SporeStudy *study);
 
-/* accuracy_judge.c: errors of all points, orders, the Pareto set and the sentence. False: no memory. */
+/* accuracy_judge.c */
+/* What a trial says of a point. costs: of its timed runs, sorted by it. */
+void spore_study_judge_point(const SporeStudy *study, SporeAccuracyPoint *point, const SporeTrial *trial,
+                             double *costs);
+/* Errors of all points, orders, the Pareto set and the sentence. False: no memory. */
 bool spore_study_judge(SporeStudy *study);
 
 #endif

@@ -75,7 +75,7 @@ static int halvings(const SporeStudy *study, const Candidate *candidate, double 
   int count = 0;
   double cost_s = runs * candidate->cost_s;
   while (count < FINEST && candidate->dt_s / (2 << count) >= FINEST_STEP_S &&
-         (study->options->full ? count < 3 : cost_s * (2 << count) <= most_s))
+         (study->options.full ? count < 3 : cost_s * (2 << count) <= most_s))
     count++;
   return count;
 }
@@ -150,7 +150,7 @@ static bool find_growth(SporeStudy *study, int level, const SporeTrial *plain, d
     report->chaotic = report->statistics = !(report->growth <= CHAOTIC);
     if (!report->chaotic) break;
     wanted = SPREAD_RUNS;
-    while (!study->options->full && wanted > 3 && (double)wanted * trial->cpu_s > CHAOS_SHARE * study->most_s) wanted--;
+    while (!study->options.full && wanted > 3 && (double)wanted * trial->cpu_s > CHAOS_SHARE * study->most_s) wanted--;
     if (wanted < SPREAD_RUNS) spore_study_cut(study, _("%zu perturbed runs instead of %d"), wanted, SPREAD_RUNS);
   }
   return true;

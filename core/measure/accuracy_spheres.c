@@ -47,7 +47,7 @@ static bool run(SporeStudy *study, double factor, double times, SporeTrial *tria
 /* Times the reference's step that the time allows. */
 static double coarser(const SporeStudy *study) {
   double times = LEAST_COARSER, runs_s = (double)(study->report->sphere_count + 2) * study->reference.cpu_s;
-  while (!study->options->full && times < MOST_COARSER && runs_s / times > SHARE * study->most_s) times *= 2;
+  while (!study->options.full && times < MOST_COARSER && runs_s / times > SHARE * study->most_s) times *= 2;
   return times;
 }
 

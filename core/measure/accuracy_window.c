@@ -15,8 +15,24 @@
 #define CARRIED 1e-3     /* of a body's length: how far the two may be apart */
 
 void spore_study_start(const SporeStudy *study, SporeWorld *world) {
-  for (uint32_t i = 0; study->q && i < study->body_count; i++)
+  for (uint32_t i = 0; study->q && i < study->body_count; i++) {
+    spore_world_set_lod(world, i, study->levels[i]);
     spore_world_set_state(world, i, study->q[i], study->v[i]);
+    SporeCommand command = {.kind = SPORE_COMMAND_LOD, .body = i, .level = spore_world_first_lod(world, i)};
+    if (spore_world_lod_rule(world, i).by == SPORE_LOD_BY_HAND && command.level != study->levels[i])
+      spore_world_post(world, &command);
+  }
+}
+
+bool spore_study_started(const SporeStudy *study, const SporeWorld *world, SporeError *why) {
+  for (uint32_t i = 0; study->q && i < study->body_count; i++) {
+    SporeLodState state;
+    if (!spore_world_lod_state(world, i, &state) || spore_world_lod_rule(world, i).by != SPORE_LOD_BY_HAND) continue;
+    if (state.level == spore_world_first_lod(world, i)) continue;
+    return spore_error_set(why, SPORE_ERROR_INPUT, NULL, _("%s cannot take level %s where the stretch begins"),
+                           spore_world_body_name(world, i), spore_lod_names[spore_world_first_lod(world, i)]);
+  }
+  return true;
 }
 
 void spore_study_forget_state(SporeStudy *study) {
@@ -26,7 +42,9 @@ void spore_study_forget_state(SporeStudy *study) {
   }
   spore_free(study->q);
   spore_free(study->v);
+  spore_free(study->levels);
   study->q = study->v = NULL;
+  study->levels = NULL;
 }
 
 static double *copy(const double *numbers, size_t count) {
@@ -38,8 +56,12 @@ static double *copy(const double *numbers, size_t count) {
 static bool keep_state(SporeStudy *study, const SporeWorld *world) {
   study->q = SPORE_NEW_ARRAY(double *, study->body_count);
   study->v = SPORE_NEW_ARRAY(double *, study->body_count);
-  bool good = study->q && study->v;
+  study->levels = SPORE_NEW_ARRAY(SporeLodGrade, study->body_count);
+  bool good = study->q && study->v && study->levels;
   for (uint32_t i = 0; good && i < study->body_count; i++) {
+    SporeLodState state = {.level = SPORE_LOD_FINE};
+    spore_world_lod_state(world, i, &state);
+    study->levels[i] = state.level;
     const SporeModel *model = spore_world_body_model(world, i);
     study->q[i] = copy(spore_world_q(world, i), model ? model->q_count : 7);
     study->v[i] = copy(spore_world_v(world, i), model ? 3 * model->block_count : 6);
@@ -64,7 +86,7 @@ static double first_contact(SporeStudy *study, SporeWorld *world) {
 
 static SporeWorld *own_world(SporeStudy *study, double start_s, double dt_s) {
   const SporeAccuracyWorld own = {.level = -1, .dt_s = dt_s, .start_s = start_s};
-  return study->scene->make(study->scene->data, &own, study->error);
+  return study->scene.make(study->scene.data, &own, study->error);
 }
 
 /* Whether a run that begins with the state of `world` goes on as that world does. */
@@ -77,7 +99,7 @@ static bool can_begin(SporeStudy *study, SporeWorld *world, double dt_s) {
   bool good = spore_trial_run(&on, world, &study->points, &settings, study->error) &&
               spore_trial_run(&anew, other, &study->points, &settings, study->error);
   good = good && spore_trial_difference(&study->points, &on, &anew).worst <= CARRIED;
-  study->scene->drop(study->scene->data, other);
+  study->scene.drop(study->scene.data, other);
   spore_trial_clear(&on);
   spore_trial_clear(&anew);
   return good;
@@ -106,7 +128,7 @@ static bool begin_late(SporeStudy *study, SporeWorld *world, double contact_s, d
 }
 
 bool spore_study_find_window(SporeStudy *study) {
-  double dt_s = spore_trial_step(study->report->interval_s, study->scene->dt_s);
+  double dt_s = spore_trial_step(study->report->interval_s, study->scene.dt_s);
   SporeWorld *world = own_world(study, 0, dt_s);
   if (!world) return false;
   bool good = true;
@@ -114,8 +136,8 @@ bool spore_study_find_window(SporeStudy *study) {
   if (spore_world_cancelled(world)) good = spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
   else if (isinf(contact_s))
     spore_study_cut(study, _("nothing touches in the first %.3g s of the input"), spore_world_time_s(world));
-  else if (contact_s > 0.5 * study->report->time_s && study->scene->starts_late)
+  else if (contact_s > 0.5 * study->report->time_s && study->scene.starts_late)
     good = begin_late(study, world, contact_s, dt_s);
-  study->scene->drop(study->scene->data, world);
+  study->scene.drop(study->scene.data, world);
   return good;
 }

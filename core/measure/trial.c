@@ -23,7 +23,7 @@ typedef struct Run {
   SporeWorld *world;
   const SporeTrialPoints *points;
   const SporeTrialSettings *settings;
-  SporeMapping *mappings; /* of each body followed; of particles empty */
+  SporeMapping *mappings; /* SPORE_LOD_COUNT of each body followed: of each level that it has; of particles empty */
   SporeStretch stretch;
   bool lines; /* control points come and go */
 } Run;
@@ -44,9 +44,27 @@ static bool allocate(Run *run) {
   trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_depth = SPORE_NEW_ARRAY(double, samples);
-  run->mappings = SPORE_NEW_ARRAY(SporeMapping, run->points->body_count);
+  run->mappings = SPORE_NEW_ARRAY(SporeMapping, SPORE_LOD_COUNT * run->points->body_count);
   return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre &&
          trial->device_force && trial->contact_force && trial->contact_depth && run->mappings;
+}
+
+/* Maps the points at each level that the body has: it may change from one to another. */
+static bool map_body(Run *run, size_t k, SporeError *error) {
+  const SporeTrialBody *body = &run->points->bodies[k];
+  for (size_t level = 0; level < SPORE_LOD_COUNT; level++)
+    if (spore_world_lod_model(run->world, body->body, (SporeLodGrade)level) &&
+        !spore_world_map_lod(run->world, body->body, (SporeLodGrade)level, body->rest, body->count,
+                             &run->mappings[SPORE_LOD_COUNT * k + level], error))
+      return false;
+  return true;
+}
+
+/* The mapping of a body followed at its present level. */
+static SporeMapping *mapping_of(const Run *run, size_t k) {
+  SporeLodState state = {.level = SPORE_LOD_FINE};
+  spore_world_lod_state(run->world, run->points->bodies[k].body, &state);
+  return &run->mappings[SPORE_LOD_COUNT * k + (size_t)state.level];
 }
 
 static bool map_points(Run *run, SporeError *error) {
@@ -54,8 +72,7 @@ static bool map_points(Run *run, SporeError *error) {
   for (size_t k = 0; k < run->points->body_count; k++) {
     const SporeTrialBody *body = &run->points->bodies[k];
     run->lines |= spore_world_line_state(run->world, body->body, &line);
-    if (body->rest && !spore_world_map(run->world, body->body, body->rest, body->count, &run->mappings[k], error))
-      return false;
+    if (body->rest && !map_body(run, k, error)) return false;
   }
   return true;
 }
@@ -93,8 +110,8 @@ static bool look_at_body(Run *run, size_t k, const SporeSnapshot *lines, double 
   if (body->rest) {
     if (lines)
       spore_world_follow_knots(run->world, body->body, spore_snapshot_knots(run->world, lines, body->body),
-                               &run->mappings[k]);
-    spore_mapping_positions(&run->mappings[k], q, positions);
+                               mapping_of(run, k));
+    spore_mapping_positions(mapping_of(run, k), q, positions);
     for (size_t i = 0; i < 3 * body->count; i++) finite &= isfinite(positions[i]) != 0;
     return finite;
   }
@@ -212,12 +229,24 @@ static bool step(Run *run, size_t steps) {
     trial->contacts += (double)counts.contacts;
     trial->residual = fmax(trial->residual, counts.residual);
     for (size_t t = 0; t < spore_world_tool_count(run->world); t++)
-      trial->coagulated += spore_world_tool_state(run->world, t).coagulated;
+      trial->events.coagulated += spore_world_tool_state(run->world, t).coagulated;
     trial->steps++;
   }
   trial->cpu_s += thread_s() - start;
   trial->cancelled = spore_world_cancelled(run->world) || spore_cancel_asked(run->settings->cancel);
   return !trial->cancelled;
+}
+
+static void count_events(SporeTrialEvents *events, const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  events->broken = monitor->broken_links;
+  events->torn = monitor->torn_springs;
+  events->lost = monitor->lost_holds;
+  for (size_t i = 0; i < spore_world_tool_count(world); i++) {
+    SporeToolState tool = spore_world_tool_state(world, i);
+    events->cut += tool.cut, events->taken += tool.taken, events->pierced += tool.pierced;
+    events->stitches += tool.stitches, events->held += tool.held;
+  }
 }
 
 static void judge(Run *run) {
@@ -229,6 +258,7 @@ static void judge(Run *run) {
   trial->spheres = spore_world_spheres(run->world)->count;
   trial->recoveries = monitor->recoveries;
   trial->unsolved = spore_world_unsolved_count(run->world);
+  count_events(&trial->events, run->world);
   trial->stable = trial->finite && !monitor->not_finite && !monitor->too_fast && !monitor->energy;
   for (uint32_t i = 0; i < spore_world_body_count(run->world); i++)
     trial->stable &= !spore_world_body_frozen(run->world, i) && !spore_world_body_made_safer(run->world, i);
@@ -252,7 +282,8 @@ bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoint
   for (size_t s = 0; good && s < settings->samples && step(&run, each); s++)
     if (!settings->timed_only) look(&run);
   if (good) judge(&run);
-  for (size_t k = 0; run.mappings && k < points->body_count; k++) spore_mapping_clear(&run.mappings[k]);
+  for (size_t k = 0; run.mappings && k < SPORE_LOD_COUNT * points->body_count; k++)
+    spore_mapping_clear(&run.mappings[k]);
   spore_free(run.mappings);
   spore_stretch_clear(&run.stretch);
   if (!good) spore_trial_clear(trial);

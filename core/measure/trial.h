@@ -6,6 +6,13 @@
 #include "core/base/cancel.h"
 #include "core/sim/world.h"
 
+/* What happened in a run, besides motion: counts at its end, of all instruments and bodies. */
+typedef struct SporeTrialEvents {
+  uint64_t broken, torn, lost;             /* links; springs of nets; holds of jaws */
+  uint64_t cut, coagulated;                /* ties; ties and elements, summed over the steps */
+  uint64_t taken, pierced, stitches, held; /* particles; surfaces; stitches and spheres held now */
+} SporeTrialEvents;
+
 #define SPORE_TRIAL_POINTS 64 /* of a body at most */
 
 /* Points of a body that trials follow. */
@@ -65,12 +72,12 @@ typedef struct SporeTrial {
       line_stretch;    /* largest of links, m, and of lines, relative: core/measure/stretch.h; looked at likewise */
   double residual;     /* worst, relative */
   uint64_t recoveries; /* steps taken again */
-  uint64_t coagulated; /* ties and elements, summed over the steps and tools */
-  size_t unsolved;     /* entries of the register of steps that were not solved as the scene is written */
-  bool finite;         /* all that was looked at is a number */
-  bool stable;         /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that
-                          it had to freeze or to move by a safer method */
-  bool cancelled;      /* it ended early */
+  SporeTrialEvents events;
+  size_t unsolved; /* entries of the register of steps that were not solved as the scene is written */
+  bool finite;     /* all that was looked at is a number */
+  bool stable;     /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that
+                      it had to freeze or to move by a safer method */
+  bool cancelled;  /* it ended early */
 } SporeTrial;
 
 /* Runs a world that is at time 0. The result is to be freed by spore_trial_clear. False: no memory, or a body of the

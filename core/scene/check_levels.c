@@ -26,7 +26,7 @@ static void check_rule(SporeCheck *check, const SporeObject *fidelity, const Spo
                     _("the level of \"%s\" goes by distance, and nothing counts that could be near: it stays at its "
                       "coarsest level"),
                     name);
-  if (spore_world_lod_stays_fine(world, body))
+  if (rule.by != SPORE_LOD_BY_DISTANCE && spore_world_may_be_cut(world, body))
     spore_check_say(check, SPORE_NOTE, fidelity, _("let its level go by distance, or nothing, if it should stay fine"),
                     _("the level of \"%s\" does not get coarser by itself: it may be cut or torn, at level fine alone"),
                     name);

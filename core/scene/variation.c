@@ -53,16 +53,28 @@ static gboolean vary_model(SporeDocument *copy, SporeObject *model, const SporeV
          scale(copy, model, masses, variation->mass, error);
 }
 
-/* What is measured at a level stays at that level, and measures do not follow the clock. */
+static gboolean set_rule(SporeDocument *copy, SporeObject *fidelity, SporeLodCause by, GError **error) {
+  return set_text(copy, fidelity, "automatic", spore_lod_cause_names[by], error);
+}
+
+/* What is measured at a level stays at that level. */
 static gboolean set_level(SporeDocument *copy, SporeObject *body, const char *level, GError **error) {
   SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  if (!fidelity) return TRUE;
-  gboolean by_time = (int)spore_object_number(fidelity, "automatic") == SPORE_LOD_BY_TIME;
-  if ((level || by_time) && !set_text(copy, fidelity, "automatic", spore_lod_cause_names[SPORE_LOD_BY_HAND], error))
-    return FALSE;
-  if (!level) return TRUE;
+  if (!level || !fidelity) return TRUE;
   gboolean has = strcmp(level, spore_lod_names[SPORE_LOD_FINE]) == 0 || spore_object_child_of(fidelity, level);
-  return !has || set_text(copy, fidelity, "level", level, error);
+  return !has ||
+         (set_rule(copy, fidelity, SPORE_LOD_BY_HAND, error) && set_text(copy, fidelity, "level", level, error));
+}
+
+/* Runs that are compared do not follow the clock. */
+static gboolean stop_clocks(SporeDocument *copy, GError **error) {
+  SporeObject *bodies = spore_document_section(copy, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *fidelity = spore_object_child_of(spore_object_child(bodies, i), "fidelity");
+    if (!fidelity || (int)spore_object_number(fidelity, "automatic") != SPORE_LOD_BY_TIME) continue;
+    if (!set_rule(copy, fidelity, SPORE_LOD_BY_HAND, error)) return FALSE;
+  }
+  return TRUE;
 }
 
 /* Particles have no Jacobian: what is implicit would not be for them. */
@@ -143,6 +155,16 @@ static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, G
          set_text(copy, body, "role", "unmovable", error);
 }
 
+/* What the variation says of one body. */
+static SporeVariation of_body(const SporeVariation *variation, const char *body) {
+  SporeVariation own = *variation;
+  if (variation->kept && g_strv_contains(variation->kept, body)) own.level = NULL;
+  for (gsize i = 0; i < variation->setting_count; i++)
+    if (g_str_equal(variation->settings[i].body, body))
+      own.integrator = variation->settings[i].integrator, own.level = variation->settings[i].level;
+  return own;
+}
+
 gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variation, GError **error) {
   SporeObject *bodies = spore_document_section(copy, "bodies");
   guint passive = 0, named = 0, taken = 0;
@@ -154,7 +176,8 @@ gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variatio
     passive++;
     if (variation->body && strcmp(variation->body, spore_object_name(body)) != 0) continue;
     named++;
-    if (!vary_body(copy, body, variation, !variation->every_second || passive % 2 == 0, &taken, error)) return FALSE;
+    const SporeVariation own = of_body(variation, spore_object_name(body));
+    if (!vary_body(copy, body, &own, !own.every_second || passive % 2 == 0, &taken, error)) return FALSE;
   }
   if (!stop(copy, variation->still, FALSE, error) || !stop(copy, variation->left_out, TRUE, error)) return FALSE;
   if (named == 0 && variation->body)
@@ -170,8 +193,9 @@ gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variatio
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error) {
   SporeDocument *copy = spore_document_copy(document);
-  SporeSimulation *simulation =
-      spore_variation_set(copy, variation, error) ? spore_simulation_new(copy, pool, input, cancel, error) : NULL;
+  SporeSimulation *simulation = spore_variation_set(copy, variation, error) && stop_clocks(copy, error)
+                                    ? spore_simulation_new(copy, pool, input, cancel, error)
+                                    : NULL;
   spore_document_free(copy);
   return simulation;
 }

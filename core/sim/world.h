@@ -217,8 +217,8 @@ uint64_t spore_world_lod_change_count(const SporeWorld *world);
 SporeLodChange spore_world_lod_change(const SporeWorld *world, uint64_t i);
 /* The rule by which the body changes its level by itself; BY_HAND: it does not. */
 SporeLodRule spore_world_lod_rule(const SporeWorld *world, uint32_t body);
-/* Whether the body is never made coarser by error or by time: an instrument may cut it, at level fine alone. */
-bool spore_world_lod_stays_fine(const SporeWorld *world, uint32_t body);
+/* Whether the body may be cut or torn, which only its finest level can: by error and time it is not made coarser. */
+bool spore_world_may_be_cut(const SporeWorld *world, uint32_t body);
 /* Whether the same scene and input give the same bits: false where the level of some body follows the clock. */
 bool spore_world_is_repeatable(const SporeWorld *world);
 /* Bytes of the mappings, matrices and states that the levels of a body take, without models and factors. */

@@ -208,6 +208,17 @@ static void test_levels(void) {
   for (size_t i = 0; i < report->point_count; i++)
     if (report->points[i].level == SPORE_LOD_COARSE && report->points[i].method == 1)
       g_assert_cmpfloat_with_epsilon(report->points[i].error, report->levels[0].error, 0.1 * report->levels[0].error);
+  /* One more world is judged as the points were. */
+  for (size_t i = 0; i < report->point_count; i++) {
+    const SporeAccuracyPoint *point = &report->points[i];
+    const SporeAccuracyWorld world = {
+        .method = &report->methods[point->method].method, .level = point->level, .dt_s = point->dt_s};
+    SporeAccuracyPoint again;
+    g_assert_true(spore_accuracy_measure_more(report, &world, FALSE, &again, NULL));
+    g_assert_cmpfloat(again.error, ==, point->error);
+    g_assert_cmpint(again.stable, ==, point->stable);
+    g_assert_cmpfloat(again.cost, >, 0);
+  }
   spore_accuracy_report_free(report);
   g_assert_cmpuint(test.made, ==, test.dropped);
   g_hash_table_unref(test.rigs);

@@ -287,7 +287,7 @@ static void test_torn(void) {
                             .rule = {.by = SPORE_LOD_BY_ERROR, .wait_s = WAIT_S}};
   rig->description.solver.sleep_speed = 0;
   SporeWorld *world = rig_build(rig);
-  g_assert_true(spore_world_lod_stays_fine(world, 0));
+  g_assert_true(spore_world_may_be_cut(world, 0));
   rig_run(world, 100);
   g_assert_cmpint((int)state_of(world).level, ==, SPORE_LOD_FINE);
   rig_free(rig);

@@ -33,12 +33,6 @@ SporeLodRule spore_world_lod_rule(const SporeWorld *world, uint32_t body) {
   return levels ? levels->automation.rule : (SporeLodRule){.by = SPORE_LOD_BY_HAND};
 }
 
-bool spore_world_lod_stays_fine(const SporeWorld *world, uint32_t body) {
-  assert(body < world->body_count);
-  const SporeLod *levels = world->bodies[body].lod;
-  return levels && levels->automation.stays_fine;
-}
-
 bool spore_lod_create_automation(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
   SporeLodSystem *system = &world->levels;
   system->look_steps = (uint64_t)fmax(1, round(LOOK_S / world->solver.time_step));
@@ -46,12 +40,11 @@ bool spore_lod_create_automation(SporeWorld *world, const SporeWorldDescription 
   if (!system->eyes)
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a body's levels"));
   for (size_t i = 0; i < description->eye_count; i++) system->eyes[system->eye_count++] = description->eyes[i];
-  for (size_t b = 0; b < world->body_count; b++) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!body->lod || body->lod->automation.rule.by == SPORE_LOD_BY_HAND) continue;
     SporeLodAutomation *automation = &body->lod->automation;
-    automation->stays_fine =
-        automation->rule.by != SPORE_LOD_BY_DISTANCE && world->topology.cuts.capacity > 0 && body->model->type->cut;
+    automation->stays_fine = automation->rule.by != SPORE_LOD_BY_DISTANCE && spore_world_may_be_cut(world, b);
     system->automatic_count++;
     system->by_time |= automation->rule.by == SPORE_LOD_BY_TIME;
   }

@@ -181,7 +181,7 @@ void spore_world_change_lod(SporeWorld *world, uint32_t index, SporeLodGrade to)
   if (body->grade == to) return;
   if (!spore_world_try_lod(world, index, to, SPORE_LOD_BY_HAND, 0, reason, sizeof reason))
     spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_lod_names[to], reason);
-  else if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
+  else if (to != SPORE_LOD_FINE && spore_world_may_be_cut(world, index))
     spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
                        body->name, spore_lod_names[to]);
 }

@@ -359,6 +359,12 @@ SporeLodGrade spore_world_first_lod(const SporeWorld *world, uint32_t body) {
   return levels ? levels->first : SPORE_LOD_FINE;
 }
 
+bool spore_world_may_be_cut(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  const SporeModel *model = world->bodies[body].model;
+  return model && model->type->cut && world->topology.cuts.capacity > 0;
+}
+
 uint64_t spore_world_lod_change_count(const SporeWorld *world) { return world->levels.change_count; }
 
 SporeLodChange spore_world_lod_change(const SporeWorld *world, uint64_t i) {

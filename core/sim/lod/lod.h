@@ -33,7 +33,7 @@ typedef struct SporeLodLevel {
 /* How a body changes its level by itself, and what that waits for. */
 typedef struct SporeLodAutomation {
   SporeLodRule rule;
-  bool stays_fine;       /* see spore_world_lod_stays_fine */
+  bool stays_fine;       /* it may be cut, and its rule does not go by distance */
   uint64_t not_before;   /* number of the step from which a change may be tried again */
   uint32_t refusals;     /* in a row: each one makes the wait twice as long */
   uint64_t calm_steps;   /* for which a coarser level would have done */
