@@ -216,6 +216,7 @@ static void draw_mark(SporeTextBuffer *text, const SporePlotAxis *x, const Spore
                       const SporePlotPanel *panel) {
   if (!panel->mark_label || !spore_plot_axis_shows(x, panel->mark_x)) return;
   double at = spore_plot_axis_place(x, panel->mark_x);
+  if (at < x->from || at > x->to) return; /* no line comes near */
   bool right = at < (x->from + x->to) / 2;
   spore_svg_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
   /* Drawn twice, first white and thick, so that the label is legible over lines. */

@@ -11,6 +11,7 @@ from table import row
 
 TARGETS = (1e-1, 1e-2, 1e-3)  # of a body's length
 EVEN = 1.1                    # times the cheapest cost: no difference that a repeat would show again
+WORST = 3                     # losses that are named
 scenes = None                 # names; None: all
 seconds = None                # on the processor for the accuracy of a scene; None: what the command takes
 
@@ -121,7 +122,8 @@ def sentence_of(method, places):
     never = [scene for factor, scene, _ in places if factor == math.inf]
     words = [f"{method} is the cheapest, or within {100 * (EVEN - 1):.0f} % of it, in {len(won)} of {len(places)}" + (f" ({', '.join(won)})" if won else "")]
     if lost:
-        words.append("loses to " + ", ".join(f"{winner} {factor:.2g}x in {scene}" for factor, scene, winner in lost))
+        more = f" and in {len(lost) - WORST} more" if len(lost) > WORST else ""
+        words.append("loses to " + ", ".join(f"{winner} {factor:.2g}x in {scene}" for factor, scene, winner in lost[:WORST]) + more)
     if never:
         words.append(f"does not get there in {', '.join(never)}")
     return "; ".join(words)

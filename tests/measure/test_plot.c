@@ -35,6 +35,11 @@ static void test_logarithmic(void) {
   g_assert_nonnull(strstr(svg, ">two</text>"));
   g_autofree char *mark = g_strdup_printf("<line x1=\"%g\"", p[2]);
   g_assert_nonnull(strstr(strstr(svg, mark), "stroke-dasharray"));
+  g_assert_nonnull(strstr(svg, ">here<"));
+  panel.mark_x = 1e6; /* where no line comes near there is no mark */
+  char *without = spore_plot_svg("title", NULL, &panel, 1, NULL);
+  g_assert_null(strstr(without, ">here<"));
+  spore_free(without);
   spore_free(svg);
 }
 
