@@ -80,6 +80,13 @@ typedef struct SporeDynamics {
   bool (*drags)(void *data);
   void (*multiply_dragged)(void *data, const double *x, double *y);
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
+  void (*precondition_dragged)(void *data, const double *r,
+                               double *z); /* the same for what multiply_dragged stands for */
+  /* Linear iterations that take as much work as a P that holds what couples bodies, too, and that are left before it is
+   * worth making. 0: there is no such P, or P is it. And makes P it, as long as it serves; false: that cannot be. May
+   * be NULL: 0. */
+  size_t (*coupling_patience)(void *data);
+  bool (*couple)(void *data);
   /* What linearise costs against a force, a precondition and the rest of a quasi-Newton iteration, where P is a factor
    * of the bodies' part of A; 0 where it is not meant to be one. */
   double (*factor_cost)(void *data);

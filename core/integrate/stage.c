@@ -65,15 +65,37 @@ static bool reuse(void *data, const double *v) {
   return dynamics->reuse(dynamics->data, stage->q, v, stage->c, stage->c * stage->c);
 }
 
+typedef SporeLinearResult Method(const SporeLinearOperator *operator, const double * b, double tolerance,
+                                 size_t iterations, double *x, double *scratch);
+
+/* Where iterations are many, the preconditioner is made to hold what couples bodies. work: in an iteration, products.
+ */
+static SporeLinearResult iterate(Stage *stage, Method *method, const SporeLinearOperator *operator, const double * r,
+                                 double tolerance, size_t work, double *dv) {
+  const SporeDynamics *dynamics = stage->dynamics;
+  size_t most = stage->linear_iterations / work, spent = 0;
+  size_t patience = dynamics->coupling_patience ? dynamics->coupling_patience(dynamics->data) : 0;
+  if (patience > 0 && patience < most * work) {
+    SporeLinearResult first = method(operator, r, tolerance, (patience + work - 1) / work, dv, stage->linear);
+    first.iterations *= work;
+    if (first.status != SPORE_LINEAR_TOO_MANY) return first;
+    dynamics->couple(dynamics->data);
+    spent = first.iterations;
+  }
+  SporeLinearResult result = method(operator, r, tolerance, most, dv, stage->linear);
+  result.iterations = result.iterations * work + spent;
+  return result;
+}
+
 static SporeLinearResult solve(void *data, const double *r, double tolerance, double *dv) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
   SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition,
                                  dynamics->cancel};
-  SporeLinearResult result = spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+  SporeLinearResult result = iterate(stage, spore_pcg, &operator, r, tolerance, 1, dv);
   if (result.status != SPORE_LINEAR_INDEFINITE || !dynamics->take_tangent || !stage->at) return result;
   linearise_by(stage, SPORE_TANGENT_DEFINITE, stage->at, NULL);
-  SporeLinearResult again = spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+  SporeLinearResult again = iterate(stage, spore_pcg, &operator, r, tolerance, 1, dv);
   again.iterations += result.iterations;
   return again;
 }
@@ -86,9 +108,8 @@ static SporeLinearResult solve_whole(void *data, const double *r, double toleran
   const SporeDynamics *dynamics = stage->dynamics;
   if (!dynamics->drags(dynamics->data)) return solve(data, r, tolerance, dv);
   SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply_dragged,
-                                 dynamics->precondition, dynamics->cancel};
-  SporeLinearResult whole = spore_bicgstab(&operator, r, tolerance, stage->linear_iterations / 2, dv, stage->linear);
-  whole.iterations *= 2; /* products */
+                                 dynamics->precondition_dragged, dynamics->cancel};
+  SporeLinearResult whole = iterate(stage, spore_bicgstab, &operator, r, tolerance, 2, dv);
   if (whole.status == SPORE_LINEAR_CONVERGED) return whole;
   SporeLinearResult part = solve(data, r, tolerance, dv);
   part.iterations += whole.iterations;

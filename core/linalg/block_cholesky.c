@@ -152,6 +152,66 @@ static void solve_blocks(SporeBlockCholesky *factor, const double *b, double *x)
   for (size_t i = 0; i < n; i++) memcpy(x + 3 * (size_t)factor->order[i], y + 3 * i, 3 * sizeof *x);
 }
 
+/* Vectors side by side: the lanes of a row lie next to each other. */
+static void gather_lanes(const SporeBlockCholesky *factor, const double *vectors, size_t apart, double *y) {
+  for (size_t i = 0; i < factor->block_count; i++) {
+    const double *from = vectors + 3 * (size_t)factor->order[i];
+    for (size_t e = 0; e < 3; e++, y += SPORE_LANES)
+      for (size_t lane = 0; lane < SPORE_LANES; lane++) y[lane] = from[lane * apart + e];
+  }
+}
+
+static void scatter_lanes(const SporeBlockCholesky *factor, const double *y, double *vectors, size_t apart) {
+  for (size_t i = 0; i < factor->block_count; i++) {
+    double *to = vectors + 3 * (size_t)factor->order[i];
+    for (size_t e = 0; e < 3; e++, y += SPORE_LANES)
+      for (size_t lane = 0; lane < SPORE_LANES; lane++) to[lane * apart + e] = y[lane];
+  }
+}
+
+void spore_block_cholesky_ask(SporeBlockCholesky *factor, const uint8_t *asked) {
+  if (factor->band.block_count > 0) return;
+  for (size_t s = 0; s < factor->supernode_count; s++) factor->supernodes[s].asked = false;
+  for (size_t s = 0; s < factor->supernode_count; s++) {
+    SporeSupernode *node = &factor->supernodes[s];
+    for (size_t j = 0; j < node->column_count; j++) node->asked |= asked[factor->order[node->first + j]] != 0;
+    if (node->asked && node->parent != UINT32_MAX) factor->supernodes[node->parent].asked = true;
+  }
+}
+
+static bool is_zero(size_t n, const double *x) {
+  for (size_t i = 0; i < n; i++)
+    if (x[i] != 0) return false;
+  return true;
+}
+
+static void solve_lanes(SporeBlockCholesky *factor) {
+  const size_t block = 3 * SPORE_LANES;
+  double *y = factor->work, *below = y + block * factor->block_count + SPORE_LANES,
+         *spare = below + SPORE_LANES * factor->most_rows;
+  for (size_t s = 0; s < factor->supernode_count; s++) {
+    const SporeSupernode *node = &factor->supernodes[s];
+    const uint32_t *row = factor->rows + node->row_start;
+    const double *values = factor->values + node->panel;
+    if (is_zero(block * node->column_count, y + block * node->first)) continue;
+    SPORE_KERNEL(spore_cholesky_forward_many)
+    (columns_of(node), rows_of(node), values, below_of(node, values), node->rounded, y + block * node->first, below,
+     spare);
+    for (size_t i = 0; i < node->row_count; i++)
+      for (size_t k = 0; k < block; k++) y[block * row[i] + k] -= below[block * i + k];
+  }
+  for (size_t s = factor->supernode_count; s-- > 0;) {
+    const SporeSupernode *node = &factor->supernodes[s];
+    const uint32_t *row = factor->rows + node->row_start;
+    const double *values = factor->values + node->panel;
+    if (!node->asked) continue;
+    for (size_t i = 0; i < node->row_count; i++) memcpy(below + block * i, y + block * row[i], block * sizeof *y);
+    SPORE_KERNEL(spore_cholesky_backward_many)
+    (columns_of(node), rows_of(node), values, below_of(node, values), node->rounded, y + block * node->first, below,
+     spare);
+  }
+}
+
 /* Whether the matrix has as many blocks as the pattern that was analysed. */
 static inline bool is_of_pattern(const SporeBlockCholesky *factor, const SporeBlockMatrix *matrix) {
   size_t n = factor->block_count;
@@ -180,11 +240,31 @@ bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlock
          (!factor->directed || factorise_direction(factor, matrix->direction, held));
 }
 
+/* x is the solution by the blocks alone. */
+static void add_direction(const SporeBlockCholesky *factor, double *x) {
+  size_t n = 3 * factor->block_count;
+  if (!factor->directed) return;
+  spore_vector_add_scaled(n, x, -factor->inverse * spore_vector_dot(n, factor->direction, x), factor->response);
+}
+
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
   assert(factor->block_count > 0);
   assert(b && x);
   solve_blocks(factor, b, x);
-  if (!factor->directed) return;
-  size_t n = 3 * factor->block_count;
-  spore_vector_add_scaled(n, x, -factor->inverse * spore_vector_dot(n, factor->direction, x), factor->response);
+  add_direction(factor, x);
+}
+
+void spore_block_cholesky_solve_many(SporeBlockCholesky *factor, double *vectors, size_t apart) {
+  assert(factor->block_count > 0);
+  assert(vectors && apart >= 3 * factor->block_count);
+  if (factor->band.block_count == 0) {
+    gather_lanes(factor, vectors, apart, factor->work);
+    solve_lanes(factor);
+    scatter_lanes(factor, factor->work, vectors, apart);
+  }
+  for (size_t lane = 0; lane < SPORE_LANES; lane++) {
+    double *x = vectors + lane * apart;
+    if (factor->band.block_count > 0) spore_block_band_solve(&factor->band, x, x);
+    add_direction(factor, x);
+  }
 }

@@ -15,11 +15,13 @@ typedef struct SporeSupernode {
   uint32_t first, column_count;    /* in elimination order */
   uint32_t row_start, row_count;   /* in `rows`: the rows below those columns */
   uint32_t child_count, inside;    /* inside: rows that are columns of the parent */
+  uint32_t parent;                 /* UINT32_MAX: none */
   uint32_t sibling;                /* the child of the same parent before this one */
   uint32_t entry_start, entry_end; /* in `entries` */
   size_t panel;                    /* in `values`: L11^-1 and L21, as in core/linalg/cholesky_kernels.h */
   size_t update;                   /* in `updates`: what it takes from its parent's front */
   bool rounded;                    /* to floats, in the same place */
+  bool asked;                      /* the solution is asked for in its columns, or below them in the tree */
 } SporeSupernode;
 
 /* A block of the matrix and where it goes in a panel. */
@@ -52,11 +54,12 @@ typedef struct SporeBlockCholesky {
   uint32_t *targets;          /* as rows: where a row lies in the parent's front, in blocks */
   uint32_t *runs;             /* as rows: how many from there on lie side by side in the parent's front, too */
   SporeFactorEntry *entries;
-  double *values;   /* panels */
-  double *front;    /* the panel that is being eliminated, where it is rounded then */
-  double *updates;  /* matrices that wait for their parents: two stacks, for one generation and the next */
-  size_t most_rows; /* of a panel's L21, padded */
-  double *work;     /* 3 block_count and padding, most_rows, and the most columns of a panel three times, padded */
+  double *values;      /* panels */
+  double *front;       /* the panel that is being eliminated, where it is rounded then */
+  double *updates;     /* matrices that wait for their parents: two stacks, for one generation and the next */
+  size_t most_rows;    /* of a panel's L21, padded */
+  size_t most_columns; /* of a panel, padded */
+  double *work;        /* SPORE_LANES times: 3 block_count and padding, most_rows, and most_columns three times */
 } SporeBlockCholesky;
 
 /* Analyses the pattern and takes all memory that factorising and solving need. Where factorising would take more than
@@ -76,5 +79,10 @@ bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlock
                                     const uint8_t *held, bool may_round);
 /* x = A^-1 b; may be the same vector. */
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x);
+/* Where spore_block_cholesky_solve_many gives solutions from here on: in blocks with a flag, one a block. */
+void spore_block_cholesky_ask(SporeBlockCholesky *factor, const uint8_t *asked);
+/* The same in place for SPORE_LANES vectors, `apart` doubles from one to the next. Elsewhere than asked the vectors are
+ * then undefined. Blocks of zeros, and blocks that are not asked for, save work. */
+void spore_block_cholesky_solve_many(SporeBlockCholesky *factor, double *vectors, size_t apart);
 
 #endif

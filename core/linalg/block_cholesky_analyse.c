@@ -200,8 +200,9 @@ static void tie_to_parents(const Analysis *analysis, SporeBlockCholesky *factor)
   for (uint32_t s = 0; s < factor->supernode_count; s++) last_child[s] = NONE;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
+    node->parent = NONE;
     if (node->row_count == 0) continue;
-    uint32_t parent = analysis->owner[factor->rows[node->row_start]];
+    uint32_t parent = node->parent = analysis->owner[factor->rows[node->row_start]];
     find_targets(factor, node, &factor->supernodes[parent]);
     node->sibling = last_child[parent];
     last_child[parent] = s;
@@ -233,7 +234,6 @@ static size_t place_updates(const Analysis *analysis, SporeBlockCholesky *factor
 
 /* Lays out the panels. Gives the sizes of values, front and work. */
 static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *front, size_t *work) {
-  size_t most_columns = 0;
   *values = *front = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
@@ -244,10 +244,10 @@ static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t
     if (panel > *front) *front = panel;
     factor->solve_flops += 4.0 * (double)((columns / 2 + rows) * columns);
     for (size_t c = 0; c < columns; c++) factor->factor_flops += (double)((columns + rows - c) * (columns + rows - c));
-    if (columns > most_columns) most_columns = columns;
+    if (spore_cholesky_pad(columns) > factor->most_columns) factor->most_columns = spore_cholesky_pad(columns);
     if (spore_cholesky_pad(rows) > factor->most_rows) factor->most_rows = spore_cholesky_pad(rows);
   }
-  *work = 3 * (size_t)analysis->count + SPORE_LANES + factor->most_rows + 3 * spore_cholesky_pad(most_columns);
+  *work = SPORE_LANES * (3 * (size_t)analysis->count + SPORE_LANES + factor->most_rows + 3 * factor->most_columns);
 }
 
 static void place_entries(const Analysis *analysis, SporeBlockCholesky *factor) {

@@ -25,5 +25,10 @@ SPORE_DECLARE_KERNEL(void, spore_cholesky_forward, size_t columns, size_t rows, 
 /* x = L11^-T (x - L21^T below); below is padded with zeros. work: columns, padded. */
 SPORE_DECLARE_KERNEL(void, spore_cholesky_backward, size_t columns, size_t rows, const void *t, const void *b,
                      bool rounded, double *x, const double *below, double *work);
+/* The same for SPORE_LANES vectors: the lanes of a row lie next to each other. below: rows; work: columns. */
+SPORE_DECLARE_KERNEL(void, spore_cholesky_forward_many, size_t columns, size_t rows, const void *t, const void *b,
+                     bool rounded, double *x, double *below, double *work);
+SPORE_DECLARE_KERNEL(void, spore_cholesky_backward_many, size_t columns, size_t rows, const void *t, const void *b,
+                     bool rounded, double *x, const double *below, double *work);
 
 #endif

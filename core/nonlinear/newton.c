@@ -166,8 +166,10 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
         memcpy(mark.r, r, n * sizeof *r);
         memcpy(mark.d, d, n * sizeof *d);
       } else {
-        length =
-            spore_line_search(system, x, d, r, test.norm, true, near, trial, trial_r, &trial_norm, &result.evaluations);
+        /* What buckles grows slowly, by steps of the same length, unless the search may go beyond them. */
+        double reach = creep.stuck >= STUCK_MOST ? HUGE_VAL : near;
+        length = spore_line_search(system, x, d, r, test.norm, true, reach, trial, trial_r, &trial_norm,
+                                   &result.evaluations);
       }
     }
     if (length == 0 && creep.all) {

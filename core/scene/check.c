@@ -55,6 +55,14 @@ static void check_mechanical(SporeCheck *check, const SporeObject *body, SporeRo
                     role == SPORE_ACTIVE ? "active" : "unmovable");
 }
 
+/* Whether a link or a tool works on the body in another way than by touching: then it may well be without spheres. */
+static gboolean is_used_untouched(const SporeCheck *check, const SporeObject *body) {
+  const GPtrArray *users = g_hash_table_lookup(check->users, body);
+  for (guint i = 0; users && i < users->len; i++)
+    if (!g_str_equal(spore_object_type(users->pdata[i])->element, "probe")) return TRUE;
+  return FALSE;
+}
+
 static void check_body(SporeCheck *check, SporeObject *body) {
   const char *name = spore_object_name(body);
   SporeRole role = (SporeRole)spore_object_number(body, "role");
@@ -62,7 +70,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   const SporeObject *collision = spore_object_child_of(body, "collision");
   gboolean backdrop = role == SPORE_UNMOVABLE && spore_object_child_of(body, "visual");
   gboolean felt = collision && (spore_object_text(collision, "spheres") || spore_body_has_own_spheres(body));
-  if (!felt && !backdrop)
+  if (!felt && !backdrop && !is_used_untouched(check, body))
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: bodies pass through it"), name);

@@ -20,6 +20,18 @@ static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m,
   spore_check_say(check, SPORE_WARNING, asset, remedy, _("\"%s\" is %s across"), spore_object_name(asset), length);
 }
 
+/* Whether the mesh is that of a body which is a sheet: such a mesh has a border. */
+static gboolean is_sheet(const SporeCheck *check, const SporeObject *asset) {
+  const GPtrArray *users = g_hash_table_lookup(check->users, asset);
+  for (guint i = 0; users && i < users->len; i++) {
+    const SporeObject *user = users->pdata[i];
+    if (!g_str_equal(spore_object_type(user)->element, "mechanical") || spore_object_child_count(user) == 0) continue;
+    const char *model = spore_object_type(spore_object_child(user, 0))->element;
+    if (g_str_equal(model, "mass_spring_net") || g_str_equal(model, "spline_2d")) return TRUE;
+  }
+  return FALSE;
+}
+
 static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeTriangleMesh *mesh = spore_document_mesh(check->document, asset, error);
   if (!mesh) return FALSE;
@@ -31,7 +43,7 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
     spore_check_say(check, SPORE_NOTE, asset, _("nothing, or export it again, facing outward"),
                     _("\"%s\" faces inward in its file, wholly or in part: its triangles are turned outward"),
                     spore_object_name(asset));
-  if (!report.closed &&
+  if (!report.closed && !is_sheet(check, asset) &&
       spore_check_is_used(check, asset, "mechanical|spheres|tetrahedra")) /* used for more than drawing */
     spore_check_say(
         check, SPORE_NOTE, asset, _("tetrahedra can still be generated: the surface is repaired or wrapped then"),

@@ -19,6 +19,7 @@ static void clear_body(SporeBody *body) {
   spore_block_matrix_clear(&body->preconditioner.matrix);
   spore_block_cholesky_clear(&body->preconditioner.factor);
   spore_free(body->preconditioner.rows);
+  spore_free(body->preconditioner.coupled);
   spore_block_pattern_clear(&body->changing.pattern);
   spore_block_room_clear(&body->changing.room);
   spore_free(body->changing.pinned);

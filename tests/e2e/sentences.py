@@ -270,7 +270,7 @@ CHECK = [
      scene(floor('<visual mesh="m"/>'), assets='<mesh name="m" file="inside.off"/>'), GOOD),
     ("\"%s\" is not a closed surface: %zu open, %zu non-manifold and %zu misoriented edges",
      ["tetrahedra can still be generated: the surface is repaired or wrapped then"],
-     scene(net(), assets=SHEET), scene(floor('<visual mesh="sheet"/>'), assets=SHEET)),
+     scene(floor(), assets=SHEET + '<spheres name="ball" file="ball.spheres" source="sheet"/>'), scene(net(), assets=SHEET)),
     ("\"%s\" is in %zu pieces that share no node: those that nothing holds move by themselves",
      ["pin each of them, or tie them together"],
      scene(body("organ", SOFT), assets='<tetrahedra name="cells" file="two.mesh"/>'), organ("<neo_hookean_tetrahedra/>")),

@@ -1,10 +1,11 @@
 /* The scenes that ship: their steps allocate nothing once warm, the same bits come from any number of threads, and the
- * monitor has nothing to say. */
+ * monitor has nothing to say, nor has check. */
 #include <glib.h>
 
 #include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
+#include "core/scene/check.h"
 #include "core/scene/compile.h"
 #include "models/registry.h"
 
@@ -51,6 +52,23 @@ static void test_scene(gconstpointer data) {
   }
 }
 
+/* What check says of a scene that ships is false, or the scene is to be mended. */
+static void test_check(gconstpointer data) {
+  const char *file = data;
+  GError *error = NULL;
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
+  SporeDocument *document = spore_scene_load(schema, file, &error);
+  g_assert_no_error(error);
+  g_autoptr(GPtrArray) diagnostics = spore_document_check(document, NULL);
+  for (guint i = 0; i < diagnostics->len; i++) {
+    const SporeDiagnostic *diagnostic = diagnostics->pdata[i];
+    g_test_message("%s: %s", diagnostic->place, diagnostic->message);
+  }
+  g_assert_cmpuint(diagnostics->len, ==, 0);
+  spore_document_free(document);
+  spore_schema_free(schema);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_autoptr(GDir) folder = g_dir_open(SPORE_SCENES, 0, NULL);
@@ -59,6 +77,8 @@ int main(int argc, char **argv) {
     if (!g_str_has_suffix(name, ".spore")) continue;
     g_autofree char *path = g_strconcat("/shipped/", name, NULL);
     g_test_add_data_func_full(path, g_build_filename(SPORE_SCENES, name, NULL), test_scene, g_free);
+    g_autofree char *check = g_strconcat("/shipped/check/", name, NULL);
+    g_test_add_data_func_full(check, g_build_filename(SPORE_SCENES, name, NULL), test_check, g_free);
   }
   return g_test_run();
 }

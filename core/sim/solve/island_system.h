@@ -26,11 +26,16 @@ typedef struct SporeIslandSystem {
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
   SporeTangentForm tangent;                   /* what A takes of the stiffness of bodies and links */
   bool together;                              /* the preconditioner is a factor of the whole matrix */
-  size_t dragging;                            /* contacts with a drag, which the current A leaves out */
-  bool driven;                                /* a device moves some end */
-  bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
-  bool asked_couples, couples;                /* see spore_island_system_couples */
-  SporeKeptEquations *equations;              /* where solved equations are kept; NULL: none is solved */
+  bool coupled;                               /* it holds the couplings: see coupled_factor.c */
+  bool coupled_fresh;                         /* by factors of the last linearisation */
+  double coupled_c, coupled_c2;               /* and is of these; of the last linearisation: */
+  double linearised_c, linearised_c2;
+  size_t products;               /* with A, since then */
+  size_t dragging;               /* contacts with a drag, which the current A leaves out */
+  bool driven;                   /* a device moves some end */
+  bool frames;                   /* some contacts are evaluated by the frames of rigid bodies */
+  bool asked_couples, couples;   /* see spore_island_system_couples */
+  SporeKeptEquations *equations; /* where solved equations are kept; NULL: none is solved */
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
@@ -163,6 +168,20 @@ void spore_island_system_load_levers(const SporeIslandSystem *system, double c2)
 bool spore_island_system_factorise(const SporeIslandSystem *system, const double *blocks);
 void spore_island_system_factor_solve(const SporeIslandSystem *system, const double *r, double *z);
 
+/* coupled_factor.c: slots of SporeDynamics. After a linearisation: takes in its couplings. z = P^-1 r where z is what
+ * the bodies alone make of r. */
+size_t spore_island_system_coupling_patience(void *data);
+bool spore_island_system_couple(void *data);
+void spore_island_system_update_coupled(SporeIslandSystem *system);
+void spore_island_system_take_in_couplings(SporeIslandSystem *system, const double *r, bool dragged, double *z);
+
+/* linearise.c. Diagonal blocks of the models' part of A; M alone where there is no matrix. Factorises the body's matrix
+ * as it is; false: it is not positive definite. z = P^-1 r by the bodies' factors or diagonal blocks. */
+void spore_island_system_body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks);
+bool spore_body_has_bare_factor(const SporeBody *body);
+bool spore_island_system_factorise_body(SporeBody *body);
+void spore_island_system_solve_bodies(const SporeIslandSystem *system, const double *r, double *z);
+
 /* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2);
@@ -174,6 +193,7 @@ void spore_island_system_multiply(void *data, const double *x, double *y);
 void spore_island_system_multiply_dragged(void *data, const double *x, double *y);
 bool spore_island_system_drags(void *data);
 void spore_island_system_precondition(void *data, const double *r, double *z);
+void spore_island_system_precondition_dragged(void *data, const double *r, double *z);
 double spore_island_system_factor_cost(void *data);
 bool spore_island_system_factorised(void *data);
 size_t spore_island_system_factor_patience(void *data);

@@ -275,8 +275,9 @@ bool spore_world_create_solve(SporeWorld *world) {
   solve->local_sites = SPORE_NEW_ARRAY(SporeSite, bodies);
   solve->scratch = spore_allocate(v / 3, solve->scratch_per_block * sizeof(double));
   solve->precondition = SPORE_NEW_ARRAY(double, 3 * v);
+  solve->lanes = SPORE_NEW_ARRAY(double, SPORE_LANES *v);
   bool made = solve->parent && solve->island_of && solve->island_bodies && solve->islands && solve->local_sites &&
-              solve->scratch && solve->precondition;
+              solve->scratch && solve->precondition && solve->lanes;
   double **like_q[] = {&solve->local_q0, &solve->local_q1, &solve->best_q};
   double **like_v[] = {&solve->local_v0,  &solve->local_v1,        &solve->best_v,          &solve->history_a,
                        &solve->history_b, &solve->local_history_a, &solve->local_history_b, &solve->still};
@@ -294,11 +295,11 @@ bool spore_world_create_solve(SporeWorld *world) {
 }
 
 void spore_solve_clear(SporeSolve *solve) {
-  void *arrays[] = {solve->parent,   solve->island_of,      solve->island_bodies, solve->islands,
-                    solve->scratch,  solve->local_sites,    solve->precondition,  solve->local_q0,
-                    solve->local_q1, solve->best_q,         solve->local_v0,      solve->local_v1,
-                    solve->best_v,   solve->history_a,      solve->history_b,     solve->local_history_a,
-                    solve->still,    solve->local_history_b};
+  void *arrays[] = {solve->parent,   solve->island_of,       solve->island_bodies, solve->islands,
+                    solve->scratch,  solve->local_sites,     solve->precondition,  solve->local_q0,
+                    solve->local_q1, solve->best_q,          solve->local_v0,      solve->local_v1,
+                    solve->best_v,   solve->history_a,       solve->history_b,     solve->local_history_a,
+                    solve->still,    solve->local_history_b, solve->lanes};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
   for (size_t i = 0; i < 2 * SPORE_EQUATIONS; i++) {
     spore_free(solve->kept_q[i]);

@@ -61,8 +61,7 @@ static void linearise_terms(SporeIslandSystem *system, const double *q, const do
   }
 }
 
-/* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
-static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks) {
+void spore_island_system_body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks) {
   assert(body->block_count == body->model->block_count);
   if (!spore_island_system_assembles(system, body)) {
     const double *mass = spore_island_system_mass(system, body);
@@ -84,7 +83,19 @@ static void factorise(SporeBody *body, const double *blocks, bool alone) {
   body->preconditioner.factor_ready = spore_block_cholesky_factorise(
       &body->preconditioner.factor, &body->preconditioner.matrix, blocks, body->held.flags, may_round);
   body->preconditioner.factor_kept = body->preconditioner.factor_ready && !alone;
+  body->preconditioner.bare_c = alone && body->preconditioner.factor_ready ? body->preconditioner.matrix_c : 0;
+  body->preconditioner.bare_c2 = body->preconditioner.matrix_c2;
   body->preconditioner.choice.factors++;
+}
+
+bool spore_body_has_bare_factor(const SporeBody *body) {
+  const SporePreconditioner *its = &body->preconditioner;
+  return its->bare_c > 0 && its->bare_c == its->matrix_c && its->bare_c2 == its->matrix_c2;
+}
+
+bool spore_island_system_factorise_body(SporeBody *body) {
+  factorise(body, NULL, true);
+  return body->preconditioner.factor_ready;
 }
 
 /* How stiff a diagonal block of A - M is: the root mean square of its eigenvalues. */
@@ -126,7 +137,7 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
-    body_diagonal(system, body, blocks + 3 * site->v);
+    spore_island_system_body_diagonal(system, body, blocks + 3 * site->v);
   }
   system->together = spore_island_system_factorise(system, blocks);
   spore_couplings_diagonal(contact_couplings(system), system->contact_couplings, blocks);
@@ -135,12 +146,14 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     bool current = body->preconditioner.factor_ready && body->preconditioner.factor_alone && alone;
-    if (!body->preconditioner.choice.factorised || !spore_island_system_assembles(system, body))
+    if (system->coupled && spore_island_system_assembles(system, body)) body->preconditioner.factor_ready = true;
+    else if (!body->preconditioner.choice.factorised || !spore_island_system_assembles(system, body))
       body->preconditioner.factor_ready = body->preconditioner.factor_kept = false;
     else if (body->preconditioner.factor_kept && !alone) body->preconditioner.factor_ready = true;
     else if (!current) factorise(body, blocks + 3 * site->v, alone);
     invert_diagonal(system, body, q + site->q, blocks + 3 * site->v);
   }
+  spore_island_system_update_coupled(system);
 }
 
 /* Whether the body's matrix is its whole stiffness, negative parts and all, which the balance makes definite. */
@@ -212,6 +225,10 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
                                    double c2) {
   assert(c > 0 && c2 >= 0);
   SporeIslandSystem *system = data;
+  system->coupled_fresh = false;
+  system->coupled &= system->coupled_c == c && system->coupled_c2 == c2;
+  system->linearised_c = c;
+  system->linearised_c2 = c2;
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
   spore_island_system_load_levers(system, c2);
@@ -327,6 +344,7 @@ bool spore_island_system_factorised(void *data) {
 void spore_island_system_multiply(void *data, const double *x, double *y) {
   assert(x != y);
   SporeIslandSystem *system = data;
+  system->products++;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
@@ -357,19 +375,29 @@ void spore_island_system_multiply_dragged(void *data, const double *x, double *y
 
 bool spore_island_system_drags(void *data) { return ((const SporeIslandSystem *)data)->dragging > 0; }
 
-void spore_island_system_precondition(void *data, const double *r, double *z) {
+void spore_island_system_solve_bodies(const SporeIslandSystem *system, const double *r, double *z) {
   assert(r != z);
-  SporeIslandSystem *system = data;
   const double *inverse = spore_island_system_precondition_blocks(system);
-  if (system->together) spore_island_system_factor_solve(system, r, z);
-  for (size_t b = 0; b < system->island->kept_count && !system->together; b++) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (body->preconditioner.factor_ready)
       spore_block_cholesky_solve(&body->preconditioner.factor, r + site->v, z + site->v);
     else spore_blocks_apply(inverse + 3 * site->v, body->block_count, r + site->v, z + site->v);
   }
+}
+
+static void precondition(SporeIslandSystem *system, const double *r, bool dragged, double *z) {
+  if (system->together) spore_island_system_factor_solve(system, r, z);
+  else spore_island_system_solve_bodies(system, r, z);
+  if (system->coupled) spore_island_system_take_in_couplings(system, r, dragged, z);
   spore_island_system_filter(system, z);
+}
+
+void spore_island_system_precondition(void *data, const double *r, double *z) { precondition(data, r, false, z); }
+
+void spore_island_system_precondition_dragged(void *data, const double *r, double *z) {
+  precondition(data, r, true, z);
 }
 
 /* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. q: of the last linearisation. */

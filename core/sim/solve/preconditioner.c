@@ -38,19 +38,23 @@ static double product_work(const SporeBody *body) {
 
 double spore_body_gradient_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
 
-static double solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->preconditioner.factor.solve_flops; }
+double spore_body_solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->preconditioner.factor.solve_flops; }
 
 static double jacobian_work(const SporeBody *body) {
   return JACOBIAN_WORK * body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count];
 }
 
-static double factor_work(const SporeBody *body) { return FACTOR_WEIGHT * body->preconditioner.factor.factor_flops; }
+double spore_body_factor_work(const SporeBody *body) {
+  return FACTOR_WEIGHT * body->preconditioner.factor.factor_flops;
+}
 
-double spore_body_linearisation_work(const SporeBody *body) { return jacobian_work(body) + factor_work(body); }
+double spore_body_linearisation_work(const SporeBody *body) {
+  return jacobian_work(body) + spore_body_factor_work(body);
+}
 
 double spore_body_iteration_work(const SporeBody *body) {
   assert(body->block_count > 0);
-  return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
+  return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + spore_body_solve_work(body);
 }
 
 /* Time by work. Blocks of the matrix and of the factor are those of a spline of 200 x 200 control points; one thread.
@@ -72,7 +76,7 @@ bool spore_world_body_work(const SporeWorld *world, uint32_t index, SporeBodyWor
   double make = MAKE_WORK * blocks;
   if (own->factor.block_count > 0) {
     make += ANALYSIS_WORK / SOLVE_FLOPS_OF_BLOCK * own->factor.solve_flops;
-    work->factor_s = factor_work(body) / OPERATIONS_A_SECOND;
+    work->factor_s = spore_body_factor_work(body) / OPERATIONS_A_SECOND;
     step = fmin(step, spore_body_iteration_work(body));
   }
   work->make_s = make / OPERATIONS_A_SECOND;
@@ -95,6 +99,7 @@ bool spore_body_create_matrix(SporeBody *body, SporeError *error) {
 bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error) {
   assert(body->held.count == 0 || body->held.blocks);
   spore_block_cholesky_clear(&body->preconditioner.factor);
+  body->preconditioner.bare_c = 0;
   /* A matrix without couplings consists of diagonal blocks only. */
   if (body->preconditioner.matrix.block_count == 0 ||
       body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] ==
@@ -114,7 +119,7 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
 bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
     if (!spore_body_create_factor(world, &world->bodies[b], error)) return false;
-    if (!spore_body_create_rows(&world->bodies[b]))
+    if (!spore_body_create_rows(&world->bodies[b]) || !spore_body_create_coupled_room(&world->bodies[b]))
       return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   }
   return true;
@@ -134,6 +139,7 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   body->preconditioner.choice.factorised =
       (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && wants_factor(body));
   body->preconditioner.factor_ready = false;
+  body->preconditioner.bare_c = 0;
 }
 
 void spore_body_forget_steps(SporeWorld *world, SporeBody *body) {
@@ -165,13 +171,13 @@ static double expected_with(const SporeBody *body, const SporeStepResult *result
   double iterations = (double)result->newton_iterations;
   if (broyden) return spore_body_linearisation_work(body) / KEEP + iterations * spore_body_iteration_work(body);
   return (double)result->linearisations * spore_body_linearisation_work(body) +
-         FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
+         FACTOR_ITERATIONS * iterations * (spore_body_solve_work(body) + product_work(body));
 }
 
 /* Work of the step with a factor, and estimated work without, from the conjugate gradients before the change. */
 static double work_with(const SporeBody *body, const SporeStepResult *result, uint32_t factors) {
-  return (double)result->linearisations * jacobian_work(body) + factors * factor_work(body) +
-         (double)result->linear_iterations * (solve_work(body) + product_work(body));
+  return (double)result->linearisations * jacobian_work(body) + factors * spore_body_factor_work(body) +
+         (double)result->linear_iterations * (spore_body_solve_work(body) + product_work(body));
 }
 
 static double expected_without(const SporeBody *body, const SporeStepResult *result) {
@@ -220,8 +226,8 @@ static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
     choice->debt = 0;
     return;
   }
-  choice->debt += fmax(linear - choice->linear, 0) * iterations * (solve_work(body) + product_work(body));
-  if (choice->debt > factor_work(body) || result->unsolved > 0) body->preconditioner.factor_kept = false;
+  choice->debt += fmax(linear - choice->linear, 0) * iterations * (spore_body_solve_work(body) + product_work(body));
+  if (choice->debt > spore_body_factor_work(body) || result->unsolved > 0) body->preconditioner.factor_kept = false;
 }
 
 /* Chooses whether the body is factorised. alone: no contact or link couples bodies. With couplings a factor would not

@@ -52,6 +52,8 @@ typedef struct SporeFactorChoice {
   double debt;              /* among couplings: work above that since the factor was made */
 } SporeFactorChoice;
 
+typedef struct SporeCoupledRoom SporeCoupledRoom; /* see coupled_factor.c */
+
 /* Matrix of a body, and the factor of that matrix. */
 typedef struct SporePreconditioner {
   SporeBlockMatrix
@@ -62,8 +64,10 @@ typedef struct SporePreconditioner {
   SporeBlockCholesky factor;  /* without blocks: this body is never factorised */
   bool factor_ready;          /* the factor may be used: it belongs to the present matrix, or is kept */
   bool factor_alone;          /* the factor was made without couplings */
+  double bare_c, bare_c2;     /* c and c2 of the numbers of such a factor, whatever the present matrix is; 0: none */
   bool factor_kept;           /* among couplings: the factor also serves later matrices with the same c and c2 */
   double *rows;               /* of a rigid body: its rows of the factor of a small island; NULL: of another body */
+  SporeCoupledRoom *coupled;  /* for the couplings of an island that the body is the first of; NULL: no matrix */
   uint32_t first_row;         /* first entry of these rows that is not zero */
   double turning[9];          /* of a rigid body: what the load of links adds to A against turning */
   double rounding_soft, rounding_stiff; /* squares, of the last preconditioner: see spore_island_rounding */
@@ -178,6 +182,7 @@ typedef struct SporeSolve {
   size_t scratch_per_block; /* doubles of scratch a block */
   double
       *precondition; /* 9 doubles a block, in the order of the local vectors: diagonal blocks of the preconditioner */
+  double *lanes;     /* SPORE_LANES vectors like local_v0, island by island: see coupled_factor.c */
   size_t sleeping_count; /* bodies asleep */
   SporeEnergyWatch watch;
 } SporeSolve;
@@ -225,6 +230,9 @@ void spore_body_forget_steps(SporeWorld *world, SporeBody *body);
 void spore_body_changed_model(SporeWorld *world, uint32_t body);
 /* Starts the choice of a preconditioner anew. */
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body);
+/* Estimated work of the body's factor, and of a solution by it. */
+double spore_body_factor_work(const SporeBody *body);
+double spore_body_solve_work(const SporeBody *body);
 /* Estimated work of a linearisation, and of a conjugate gradient iteration, for this body: in floating-point operations
  * as a product with its matrix makes them. */
 double spore_body_linearisation_work(const SporeBody *body);
@@ -240,6 +248,9 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 #define SPORE_SMALL_ISLAND 20
 /* Room for the body's part of such a factor, if the body is rigid. False: no memory. */
 bool spore_body_create_rows(SporeBody *body);
+
+/* coupled_factor.c: room for the couplings of an island, if the body has a matrix. False: no memory. */
+bool spore_body_create_coupled_room(SporeBody *body);
 
 /* integrate.c */
 /* Stage: integrates the islands, each on its own and on any thread. */

@@ -102,6 +102,7 @@ static SporeDynamics dynamics_of(Mass *mass) {
                          .drags = never,
                          .multiply_dragged = multiply,
                          .precondition = precondition,
+                         .precondition_dragged = precondition,
                          .factor_cost = no_cost,
                          .factorised = always,
                          .rounding = no_rounding,

@@ -111,6 +111,7 @@ static void move_ends(SporeWorld *world, uint32_t index) {
 static void lay_out_solver(SporeBody *body) {
   SporeChangingMatrix *changing = &body->changing;
   spore_body_lay_out_matrix(body);
+  body->preconditioner.bare_c = 0;
   bool had = body->preconditioner.factor.block_count > 0 || changing->factor_is_old;
   changing->factor_is_old =
       had && !spore_block_cholesky_lay_out(&body->preconditioner.factor, &body->preconditioner.matrix);
