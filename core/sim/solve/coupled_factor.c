@@ -50,10 +50,14 @@ struct SporeCoupledRoom {
   Row row[COUPLED_MOST];
 };
 
-bool spore_body_create_coupled_room(SporeBody *body) {
-  if (body->role != SPORE_PASSIVE || body->preconditioner.matrix.block_count == 0) return true;
-  body->preconditioner.coupled = SPORE_NEW(SporeCoupledRoom);
-  return body->preconditioner.coupled != NULL;
+bool spore_world_create_coupled_rooms(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_PASSIVE || body->preconditioner.matrix.block_count == 0) continue;
+    body->preconditioner.coupled = SPORE_NEW(SporeCoupledRoom);
+    if (!body->preconditioner.coupled) return false;
+  }
+  return true;
 }
 
 static SporeCoupledRoom *room_of(const SporeIslandSystem *system) {
@@ -292,7 +296,9 @@ static bool factorise_bodies(const SporeIslandSystem *system) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
-    if (has_factor(system, body) && !spore_island_system_factorise_body(body)) return false;
+    if (!has_factor(system, body)) continue;
+    spore_body_factorise(body, NULL, true);
+    if (!body->preconditioner.factor_ready) return false;
   }
   return true;
 }

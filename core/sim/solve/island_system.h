@@ -175,11 +175,15 @@ bool spore_island_system_couple(void *data);
 void spore_island_system_update_coupled(SporeIslandSystem *system);
 void spore_island_system_take_in_couplings(SporeIslandSystem *system, const double *r, bool dragged, double *z);
 
-/* linearise.c. Diagonal blocks of the models' part of A; M alone where there is no matrix. Factorises the body's matrix
- * as it is; false: it is not positive definite. z = P^-1 r by the bodies' factors or diagonal blocks. */
+/* body_factor.c. Diagonal blocks of the models' part of A; M alone where there is no matrix. */
 void spore_island_system_body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks);
+/* Factorises the body's own matrix, its diagonal blocks replaced by `blocks` unless that is NULL. alone: without
+ * couplings. Where the matrix is not positive definite in floating point, block-Jacobi is used instead. */
+void spore_body_factorise(SporeBody *body, const double *blocks, bool alone);
+/* Whether the numbers of the factor are those of a matrix without couplings, of the same c and c2 as the present one.
+ */
 bool spore_body_has_bare_factor(const SporeBody *body);
-bool spore_island_system_factorise_body(SporeBody *body);
+/* z = P^-1 r by the bodies' factors or diagonal blocks. */
 void spore_island_system_solve_bodies(const SporeIslandSystem *system, const double *r, double *z);
 
 /* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */

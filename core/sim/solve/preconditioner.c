@@ -119,7 +119,7 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
 bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
     if (!spore_body_create_factor(world, &world->bodies[b], error)) return false;
-    if (!spore_body_create_rows(&world->bodies[b]) || !spore_body_create_coupled_room(&world->bodies[b]))
+    if (!spore_body_create_rows(&world->bodies[b]))
       return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   }
   return true;

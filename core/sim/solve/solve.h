@@ -249,8 +249,8 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 /* Room for the body's part of such a factor, if the body is rigid. False: no memory. */
 bool spore_body_create_rows(SporeBody *body);
 
-/* coupled_factor.c: room for the couplings of an island, if the body has a matrix. False: no memory. */
-bool spore_body_create_coupled_room(SporeBody *body);
+/* coupled_factor.c: makes room for the couplings of an island with each body that has a matrix. False: no memory. */
+bool spore_world_create_coupled_rooms(SporeWorld *world);
 
 /* integrate.c */
 /* Stage: integrates the islands, each on its own and on any thread. */
