@@ -42,13 +42,6 @@ static gboolean check_kept(SporeDocument *document, char **names, GError **error
   return TRUE;
 }
 
-/* "less than 0.01" where it cannot be told. */
-static char *error_text(const SporeBudgetForm *form) {
-  if (!isfinite(form->error)) return g_strdup(_("not stable"));
-  return form->resolved ? g_strdup_printf("%.2g %%", 100 * form->error)
-                        : g_strdup_printf(_("below %.2g %%"), 100 * form->error);
-}
-
 static void report_form(SporeCli *cli, const char *member, const SporeBudgetForm *form) {
   spore_cli_open(cli, member);
   spore_cli_number(cli, "dt_s", form->dt_s);
@@ -68,22 +61,11 @@ static void report_form(SporeCli *cli, const char *member, const SporeBudgetForm
   spore_cli_close(cli);
 }
 
-/* What changes of a body, in words; g_free. NULL: nothing. */
-static char *changes_of(const SporeBudgetBody *body) {
-  gboolean integrator = !g_str_equal(body->integrator[0], body->integrator[1]);
-  gboolean level = body->level[0] && !g_str_equal(body->level[0], body->level[1]);
-  g_autofree char *first = level ? g_strdup_printf(_("level %s instead of %s"), body->level[1], body->level[0]) : NULL;
-  g_autofree char *second =
-      integrator ? g_strdup_printf(_("%s instead of %s"), body->integrator[1], body->integrator[0]) : NULL;
-  if (first && second) return g_strdup_printf("%s, %s", first, second);
-  return first ? g_steal_pointer(&first) : g_steal_pointer(&second);
-}
-
 static void report_elements(SporeCli *cli, const SporeBudget *budget) {
   spore_cli_open_array(cli, "elements");
   for (gsize i = 0; i < budget->body_count; i++) {
     const SporeBudgetBody *body = &budget->bodies[i];
-    g_autofree char *id = g_strdup_printf("bodies/%s", body->name), *changes = changes_of(body);
+    g_autofree char *id = g_strdup_printf("bodies/%s", body->name), *changes = spore_budget_body_change(body);
     gboolean coarser = body->level[0] && !g_str_equal(body->level[0], body->level[1]);
     spore_cli_open(cli, NULL);
     spore_cli_text(cli, "id", id);
@@ -99,39 +81,19 @@ static void report_elements(SporeCli *cli, const SporeBudget *budget) {
   spore_cli_close_array(cli);
 }
 
-static void suggest(SporeCli *cli, const char *id, const char *change) {
-  spore_cli_open(cli, NULL);
-  spore_cli_text(cli, "id", id);
-  spore_cli_text(cli, "change", change);
-  spore_cli_close(cli);
-  spore_cli_say(cli, "  %s: %s\n", id, change);
-}
-
-static void suggest_scene(SporeCli *cli, const SporeBudgetForm *before, const SporeBudgetForm *chosen) {
-  if (chosen->dt_s != before->dt_s) {
-    g_autofree char *step =
-        g_strdup_printf(_("steps of %.4g ms instead of %.4g ms"), 1e3 * chosen->dt_s, 1e3 * before->dt_s);
-    suggest(cli, "solver/time_step", step);
-  }
-  if (chosen->nonlinear != before->nonlinear) {
-    g_autofree char *solver = g_strdup_printf(_("%s instead of %s"), chosen->nonlinear, before->nonlinear);
-    suggest(cli, "solver/nonlinear", solver);
-  }
-  if (chosen->linear != before->linear) {
-    g_autofree char *solver = g_strdup_printf(_("%s instead of %s"), chosen->linear, before->linear);
-    suggest(cli, "solver/linear", solver);
-  }
-}
-
 static void report_suggestions(SporeCli *cli, const SporeBudget *budget) {
+  g_autoptr(GArray) changes = spore_budget_list_changes(budget);
   spore_cli_open_array(cli, "suggestion");
-  suggest_scene(cli, &budget->before, &budget->chosen);
-  for (gsize i = 0; i < budget->body_count; i++) {
-    g_autofree char *change = changes_of(&budget->bodies[i]);
-    if (change) suggest(cli, budget->bodies[i].name, change);
+  for (guint i = 0; i < changes->len; i++) {
+    const SporeBudgetChange *change = &g_array_index(changes, SporeBudgetChange, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "id", change->id);
+    spore_cli_text(cli, "change", change->text);
+    spore_cli_close(cli);
+    spore_cli_say(cli, "  %s: %s\n", change->id, change->text);
   }
   spore_cli_close_array(cli);
-  if (!spore_budget_changes(budget)) spore_cli_say(cli, _("  nothing: nothing that was tried is better\n"));
+  if (changes->len == 0) spore_cli_say(cli, _("  nothing: nothing that was tried is better\n"));
 }
 
 static void report_budget(SporeCli *cli, const SporeBudget *budget, gboolean applied) {
@@ -158,7 +120,7 @@ static void report_budget(SporeCli *cli, const SporeBudget *budget, gboolean app
 }
 
 static void say_form(SporeCli *cli, const char *name, const SporeBudgetForm *form) {
-  g_autofree char *error = error_text(form);
+  g_autofree char *error = spore_budget_error_text(form);
   spore_cli_say(cli, "%-10s %9.4g %14s %12.4g\n", name, 1e3 * form->dt_s, error, form->us);
 }
 
@@ -210,7 +172,7 @@ static void say_warnings(SporeCli *cli, const SporeBudget *budget) {
 
 /* One line, with the nearest that can be had. */
 static void say_unmet(SporeCli *cli, const SporeBudget *budget) {
-  g_autofree char *error = error_text(&budget->chosen);
+  g_autofree char *error = spore_budget_error_text(&budget->chosen);
   spore_cli_say(cli,
                 _("%g us for each %g ms cannot be met: the nearest that was found takes %.4g us (steps of %.4g ms, "
                   "error %s); allow as much, or add coarser levels to the bodies\n"),

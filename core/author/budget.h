@@ -74,6 +74,16 @@ void spore_budget_free(SporeBudget *budget);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeBudget, spore_budget_free)
 /* Whether anything differs from the scene as it is. */
 gboolean spore_budget_changes(const SporeBudget *budget);
+/* In words, translated: "0.3 %", or that it cannot be told or is not stable; g_free. */
+char *spore_budget_error_text(const SporeBudgetForm *form);
+/* "level coarse instead of fine"; NULL: the body stays as it is; g_free. */
+char *spore_budget_body_change(const SporeBudgetBody *body);
+/* One change: a property of the solver or a body, and what becomes of it. */
+typedef struct SporeBudgetChange {
+  char *id, *text;
+} SporeBudgetChange;
+/* All changes, of SporeBudgetChange; g_array_unref. */
+GArray *spore_budget_list_changes(const SporeBudget *budget);
 /* Writes what was chosen into the document, as one undo step, and remembers what was measured of it. */
 gboolean spore_budget_apply(const SporeBudget *budget, SporeDocument *document, GError **error);
 

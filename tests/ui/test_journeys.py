@@ -1379,6 +1379,28 @@ def plan_of_the_step():
         editor.find("label", r"^A step: about \d+ µs of")
 
 
+@check
+def budget_of_a_scene():
+    """the tab Plan chooses settings within a budget, says what they give up, and applies them as one step of undo."""
+    path = folder("scenes") / "budgeted" / "scene.spore"
+    path.parent.mkdir(parents=True)
+    shutil.copy(SCENES / "table1-spline-1d.spore", path)
+    for assets in ("organs", "instruments", "table1"):
+        shutil.copytree(SCENES / assets, path.parent / assets)
+    with start(path) as editor:
+        editor.press(editor.find("radio button", "^Plan$"))
+        editor.press(editor.find("push button", "^Fit budget$"))
+        editor.find("label", r"^As it is: error .* Chosen: error .*the promise (held|did not hold)")
+        button = editor.find("push button", "^Apply budget$")
+        editor.find("slider", "^Budget$")
+        ui.wait(lambda: button.get_state_set().contains(editor.atspi.StateType.SENSITIVE), "settings that are nearer")
+        editor.press(button)
+        ui.wait(lambda: editor.enabled("undo"), "the settings")
+        assert "<measured" in saved(editor, "budgeted")
+        editor.act("undo")
+        ui.wait(lambda: not editor.enabled("undo"), "one step")
+
+
 def choose_short_study(editor):
     """Two methods over a twentieth of a second."""
     editor.press(editor.find("radio button", "^Accuracy$"))

@@ -4,21 +4,19 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-/* Where the work is, so that asking whether it is to end does not change what is said of it. */
-typedef struct {
-  const SporeProgress *whole;
-  double fraction;
-} Place;
-
 static bool report(void *data, double fraction, const char *stage) {
-  Place *place = data;
+  SporeWorkPlace *place = data;
   place->fraction = fraction;
   return spore_progress(place->whole, fraction, stage);
 }
 
 static bool asked(void *data) {
-  const Place *place = data;
+  const SporeWorkPlace *place = data;
   return !spore_progress(place->whole, place->fraction, NULL);
+}
+
+void spore_work_place_init(SporeWorkPlace *place, const SporeProgress *whole) {
+  *place = (SporeWorkPlace){.whole = whole, .progress = {report, place, NULL}, .cancel = {asked, place}};
 }
 
 SporeAccuracyWork *spore_accuracy_work_new(const SporeDocument *document) {
@@ -46,9 +44,8 @@ gboolean spore_accuracy_work_has_levels(const SporeDocument *document, const cha
 
 gboolean spore_accuracy_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeAccuracyWork *work = data;
-  Place place = {progress, 0};
-  const SporeProgress whole = {report, &place, NULL};
-  const SporeCancel cancel = {asked, &place};
+  SporeWorkPlace place;
+  spore_work_place_init(&place, progress);
   int levels[SPORE_LOD_COUNT];
   SporeAccuracyOptions options = {.body = work->body,
                                   .methods = (const SporeAccuracyMethod *)(gconstpointer)work->methods->data,
@@ -56,14 +53,14 @@ gboolean spore_accuracy_work_run(gpointer data, const SporeProgress *progress, G
                                   .levels = levels,
                                   .time_s = work->time_s,
                                   .full = work->full,
-                                  .cancel = &cancel,
-                                  .progress = &whole};
+                                  .cancel = &place.cancel,
+                                  .progress = &place.progress};
   for (int k = 0; work->levels && k < SPORE_LOD_COUNT; k++)
     if (k == SPORE_LOD_FINE || has_level(work->document, work->body, spore_lod_names[k]))
       levels[options.level_count++] = k;
-  if (!spore_progress(&whole, 0, _("Putting the scene together")))
+  if (!spore_progress(&place.progress, 0, _("Putting the scene together")))
     return spore_error_raise(error, SPORE_ERROR_CANCELLED, "", "%s", _("cancelled"));
-  g_autoptr(SporeSimulation) simulation = spore_simulation_new(work->document, NULL, NULL, &cancel, error);
+  g_autoptr(SporeSimulation) simulation = spore_simulation_new(work->document, NULL, NULL, &place.cancel, error);
   if (simulation) work->study = spore_accuracy_study_new(work->document, simulation, NULL, NULL, &options, error);
   return work->study != NULL;
 }

@@ -8,6 +8,7 @@
 #include "core/io/scene_xml.h"
 #include "ui/jobs/plan-work.h"
 #include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-budget.h"
 #include "ui/panels/spore-job-bar.h"
 
 #define DELAY_MS 400 /* after the last change */
@@ -15,7 +16,7 @@
 struct _SporePlanPanel {
   GtkBox parent;
   GtkListStore *store;
-  GtkWidget *tree, *summary, *measure, *copy, *save, *job_bar;
+  GtkWidget *tree, *summary, *measure, *copy, *save, *job_bar, *budget;
   SporeEditorDocument *document;
   guint timer;
   gboolean stale; /* the table is not of the scene as it is */
@@ -164,6 +165,7 @@ void spore_plan_set_document(SporePlanPanel *self, SporeEditorDocument *document
   self->document = g_object_ref(document);
   g_signal_connect_object(document, "changed", G_CALLBACK(queue), self, G_CONNECT_SWAPPED);
   clear(self);
+  spore_budget_set_document(SPORE_BUDGET(self->budget), document);
   spore_job_bar_set_job(SPORE_JOB_BAR(self->job_bar), NULL);
   gtk_widget_set_sensitive(self->measure, TRUE);
   queue(self);
@@ -184,6 +186,7 @@ static void spore_plan_class_init(SporePlanPanelClass *class) {
   G_OBJECT_CLASS(class)->dispose = spore_plan_dispose;
   G_OBJECT_CLASS(class)->finalize = spore_plan_finalize;
   g_type_ensure(SPORE_TYPE_JOB_BAR);
+  g_type_ensure(SPORE_TYPE_BUDGET);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-plan.ui");
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, store);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, tree);
@@ -192,6 +195,7 @@ static void spore_plan_class_init(SporePlanPanelClass *class) {
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, copy);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, save);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, job_bar);
+  gtk_widget_class_bind_template_child(widget, SporePlanPanel, budget);
   gtk_widget_class_bind_template_callback(widget, measure_clicked);
   gtk_widget_class_bind_template_callback(widget, copy_clicked);
 }
