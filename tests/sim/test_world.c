@@ -327,12 +327,14 @@ static void test_refusals(void) {
 }
 
 /* Every allocation of create may fail, and nothing leaks (the sanitizer looks). */
-static void test_create_without_memory(void) {
+static void check_create_without_memory(int surface) {
   SporeModel *model = chain(8, HUGE_VAL);
   SporeBodyDescription bodies[2] = {
       passive_body("soft", model, (SporeVec3){0, 0, 0}),
       {.name = "floor", .role = SPORE_UNMOVABLE, .pose = spore_pose_identity(), .spheres = &floor_set}};
   bodies[0].spheres = &chain_set;
+  bodies[1].contact = bodies[0].contact;
+  bodies[1].contact.surface = surface;
   SporeLinkDescription spring = {
       .name = "s", .type = &spore_link_spring, .body_a = 0, .body_b = SPORE_NO_BODY, .stiffness = 1};
   SporeWorldDescription description = world_description(bodies, 2);
@@ -349,6 +351,11 @@ static void test_create_without_memory(void) {
   g_assert_nonnull(world);
   run(world, 3);
   spore_world_free(world);
+}
+
+static void test_create_without_memory(void) {
+  check_create_without_memory(SPORE_SURFACE_SPHERES);
+  check_create_without_memory(SPORE_SURFACE_DEPTH_FIELD);
 }
 
 /* A chain in the midst of unmovable spheres: many more contacts than there is room for at first. */
