@@ -80,7 +80,12 @@ static void remark_coupled(GString *remarks, const char *body, const SporeMethod
     g_string_append_printf(remarks, _("%s: contacts that its step does not resolve are implicit\n"), body);
   else if (method->coupled == SPORE_COUPLED_CONTACTS)
     g_string_append_printf(remarks, _("%s: %s moves it in steps that do not resolve its contacts\n"), body, implicit);
-  else if (method->coupled == SPORE_COUPLED_LINKS && particles)
+  if (method->coupled == SPORE_COUPLED_CONTACTS && !particles && method->margin > 0)
+    g_string_append_printf(remarks,
+                           _("%s: %s moves it also in steps in which spheres are within their margins, %.3g m "
+                             "apart at most\n"),
+                           body, implicit, method->margin);
+  if (method->coupled == SPORE_COUPLED_LINKS && particles)
     g_string_append_printf(remarks, _("%s: its step does not resolve its links, which are implicit\n"), body);
   else if (method->coupled == SPORE_COUPLED_LINKS && method->resolving > 0)
     g_string_append_printf(remarks,

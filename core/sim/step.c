@@ -288,6 +288,15 @@ static SporeChoice linear_choice(const SporeWorld *world, const SporeBody *body)
   return (SporeChoice){spore_linear_names[kind], open ? SPORE_SOURCE_AUTOMATIC : SPORE_SOURCE_SCENE};
 }
 
+/* The body's margin and the widest of the others that have spheres, m. */
+static double widest_margin(const SporeWorld *world, uint32_t index) {
+  double widest = 0;
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (b != index && world->bodies[b].collision.spheres.point_count > 0)
+      widest = fmax(widest, world->bodies[b].collision.fields.margin);
+  return widest + world->bodies[index].collision.fields.margin;
+}
+
 bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMethod *method) {
   const SporeBody *body = &world->bodies[index];
   if (body->role != SPORE_PASSIVE) return false;
@@ -299,6 +308,7 @@ bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMetho
   if (body->method.integrator != body->method.chosen) method->integrator.source = SPORE_SOURCE_MONITOR;
   /* Islands are sorted anew by each step, so that sorting them changes nothing that is kept. */
   method->coupled = spore_body_coupled((SporeWorld *)(uintptr_t)world, index, &method->resolving);
+  if (method->coupled == SPORE_COUPLED_CONTACTS) method->margin = widest_margin(world, index);
   if (!integrator->implicit && method->coupled == SPORE_COUPLED_NEVER) return true;
   method->nonlinear = nonlinear_choice(world, body, method->balances);
   method->linear = linear_choice(world, body);

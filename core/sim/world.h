@@ -328,6 +328,7 @@ typedef struct SporeMethod {
   bool balances; /* static, and held by a pin or a link: each step finds a balance, one of several that there may be */
   SporeCoupled coupled;
   size_t resolving; /* coupled by links: as many substeps would resolve them; 0: no number of them does */
+  double margin; /* coupled by contacts: steps are implicit, too, in which spheres are so near, m, at most; 0: none */
 } SporeMethod;
 /* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine
  * of 2024, so that every machine says the same. */

@@ -502,6 +502,8 @@ PLAN = [
     ("left out: %s (%s): saves %.3g kB\n", ["nothing names them"], scene(stone(), assets=ASSETS + CELLS), GOOD),
     ("%s: contacts that its step does not resolve are implicit\n", [], scene(floor(), stone(FLUID, "<collision/>")), ALONE),
     ("%s: %s moves it in steps that do not resolve its contacts\n", [], scene(floor(), stone(), solver=VERLET), GOOD),
+    ("%s: %s moves it also in steps in which spheres are within their margins, %.3g m apart at most\n", [],
+     scene(floor(), stone(STONE, '<collision spheres="ball" margin="0.01"/>'), solver=VERLET), scene(floor(), stone(), solver=VERLET)),
     ("%s: its step does not resolve its links, which are implicit\n", [],
      scene(stone(FLUID), links='<spring name="s" body_a="stone" point_a="0 0 0" point_b="0 0.1 0" stiffness="1e7"/>'), ALONE),
     ("%s: %s moves it, since its step does not resolve its links; %zu substeps would\n", [],

@@ -53,8 +53,9 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeContactFields, margin),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_(
-         "How far apart spheres may be when a step begins and yet stop each other in it, where both move "
-         "implicitly: for what is so light and pulled so hard that it crosses a gap within a step, as a thread "
+         "How far apart spheres may be when a step begins and yet stop each other in it. Bodies by an explicit method "
+         "move implicitly in such a step: for what is so light and pulled so hard that it crosses a gap within a step, "
+         "as a thread "
          "that is tied. A quarter of the radius serves there; each near pair costs as much as a contact. Of a sphere "
          "no more than its radius counts.")},
     {.name = "group",
