@@ -367,6 +367,7 @@ size_t spore_island_system_coupling_patience(void *data) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
     if (spore_island_system_assembles(system, body) && !has_factor(system, body)) return 0;
+    if (spore_body_is_static(body)) return 0; /* next to no inertia: what buckles is left to conjugate gradients */
     any |= has_factor(system, body);
   }
   size_t rows = system->contact_couplings + system->spring_couplings;
