@@ -90,11 +90,14 @@ static void test_step(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(integrators); i++)
     for (int linear = SPORE_LINEAR_CONJUGATE_GRADIENTS; linear <= SPORE_LINEAR_CHOLESKY; linear++) {
       unsigned asked;
+      if (rig_sanitized && integrators[i] == SPORE_INTEGRATOR_STATIC && linear == SPORE_LINEAR_CHOLESKY) continue;
       uint64_t expected = run_uncancelled(integrators[i], linear, STEPS, &asked);
       g_test_message("%s, %s: asked %u times in the first step", spore_integrator_names[integrators[i]],
                      spore_linear_names[linear], asked);
       g_assert_cmpuint(asked, >, 20);
-      unsigned parts = integrators[i] == SPORE_INTEGRATOR_STATIC ? 2 : 8; /* its load steps take long */
+      unsigned parts = integrators[i] != SPORE_INTEGRATOR_STATIC ? 8
+                       : rig_sanitized                           ? 1
+                                                                 : 2; /* its load steps take long */
       for (unsigned part = 0; part <= parts; part++)
         cancel_at(integrators[i], linear, 1 + part * (asked - 1) / parts, expected);
     }
