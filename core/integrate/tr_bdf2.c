@@ -75,7 +75,8 @@ SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSol
 }
 
 /* Takes the step in parts, each as large as its share of the tolerance allows. The estimate is of third order, so that
- * the estimate of a part against its share is of second order. */
+ * the estimate of a part against its share is of second order. Where not even the smallest part is solved, the rest of
+ * the step is one part: a thousand more that are not solved would tell no more. */
 static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeSolverFields *fields,
                                      SporeHistory *history, double h, const double *q0, const double *v0, double *q1,
                                      double *v1, double *scratch) {
@@ -86,9 +87,9 @@ static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeS
   memcpy(v, v0, n * sizeof *v);
   double done = 0, size = history->step_s > 0 ? fmin(history->step_s, h) : h, smallest = h / PARTS_MAXIMUM;
   SporeStepResult total = {.converged = true};
-  for (bool last = false; !last;) {
+  for (bool last = false, hopeless = false; !last;) {
     double left = h - done;
-    last = size >= left || spore_cancel_asked(dynamics->cancel);
+    last = hopeless || size >= left || spore_cancel_asked(dynamics->cancel);
     double part = last ? left : fmin(size, 0.5 * left);
     SporeTrBdf2Extra extra = {.start_s = done, .error = error};
     SporeStepResult result = spore_tr_bdf2_step(dynamics, fields, &extra, part, q, v, q1, v1, work);
@@ -99,12 +100,13 @@ static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeS
     bool solved = result.converged;
     result.converged = true;
     spore_step_result_add(&total, &result);
-    if (!good && !small && !spore_cancel_asked(dynamics->cancel)) {
+    if (!good && !small && !hopeless && !spore_cancel_asked(dynamics->cancel)) {
       size = fmax(part * fmin(factor, SAFETY), smallest);
       last = false;
       dynamics->set_mass(dynamics->data, q);
       continue;
     }
+    hopeless |= !solved;
     total.converged &= good || (solved && isfinite(ratio));
     size = fmax(part * factor, last ? size : smallest);
     if (last) break;

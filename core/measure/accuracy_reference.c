@@ -234,9 +234,11 @@ bool spore_study_refer(SporeStudy *study) {
   int level = spore_study_finest_level(report), halved = 0;
   Candidate best;
   if (!choose(study, level, SIZE_MAX, 2, SHARE * study->most_s, &best, &halved))
-    return spore_error_set(study->error, SPORE_ERROR_NUMERICAL, NULL,
-                           _("no reference converges: no method is stable at three of the steps; expected one that is; "
-                             "ask for smaller steps (--dt) or other methods (--methods)"));
+    return spore_error_set(
+        study->error, SPORE_ERROR_NUMERICAL, NULL,
+        _("no reference converges: no method is stable at three of the steps that there was time for; "
+          "expected one that is; give more time (--seconds), or ask for smaller steps or other "
+          "methods (--dt and --methods of accuracy)"));
   report->reference.method = best.method;
   report->reference.dt_s = spore_trial_step(report->interval_s, best.dt_s / (double)(1 << halved));
   SporeTrial coarse = {0}, middle = {0};

@@ -4,6 +4,7 @@ itself says of it, never against a figure of the test's own."""
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -18,7 +19,7 @@ WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-budget-"))
 shutil.copytree(pathlib.Path(__file__).resolve().parent.parent.parent / "resources" / "scenes", WORK / "scenes")
 STRING = WORK / "scenes" / "table1-spline-1d.spore"
 LEVELS = WORK / "scenes" / "levels.spore"
-LEVELS.write_text(LEVELS.read_text().replace('cells="12"', 'cells="6"').replace("cells=6", "cells=4").replace('<medium settings="cells=9"/>', ""))
+LEVELS.write_text(re.sub('cells="[0-9]+"', 'cells="6"', re.sub("cells=[0-9]+", "cells=4", re.sub("<medium .*/>", "", LEVELS.read_text()))))
 
 
 def spore(command, scene, *arguments, status=0):

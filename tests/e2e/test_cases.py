@@ -107,6 +107,17 @@ def a_link_is_solved_as_far_as_doubles_go():
 
 
 @check
+def a_step_in_parts_that_no_part_solves_ends():
+    """knot, its thread a billion times too stiff in twist: a step in adaptive parts, none of which is solved, stays a bounded piece of work."""
+    knot = pathlib.Path(__file__).resolve().parents[2] / "resources/scenes/knot.spore"
+    arguments = ("run", knot, "--steps", "2", "--integrator", "tr_bdf2", "--dt", "0.02")
+    stiff = ("--set", "bodies/suture/mechanical/spline_1d/twist_modulus=1e13", "--set", "bodies/suture/mechanical/spline_1d/turns=0.77")
+    whole = run(*arguments, *stiff, status=(1,))["solver"]["newton_max"]
+    parts = run(*arguments, *stiff, "--set", "solver/error_tolerance=1", status=(1,))["solver"]["newton_max"]
+    assert parts < 10 * whole, (parts, whole)  # it was 600 times the work
+
+
+@check
 def a_heavy_ball_on_light_ones_makes_no_energy():
     """stack_verlet: the column stands or what did not hold is named; energy never grows, and nothing falls away."""
     answer = run("run", "stack_verlet.spore", "--steps", "1000", status=(0, 1))

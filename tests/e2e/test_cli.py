@@ -741,7 +741,7 @@ def every_model_by_every_integrator():
     """Each model runs with each integrator, to the same hash by 1 or 2 threads, or is refused with a place and a way out; the schema takes all of them."""
     schema = file("spore.rng", spore("schema").stdout)
     integrators = spore("run", soft_ball(), "--integrator", "?", status=2).stderr.split("one of ")[1].split(";")[0].split(", ")
-    assert len(integrators) == 9, integrators
+    assert len(integrators) == 10, integrators
     models, steps = 0, 5 if SANITIZED else 20
     for model, scene in every_model():
         models += 1

@@ -228,7 +228,15 @@ static void pulled_state(SporeIntegratorKind kind, double h, double *state) {
 }
 
 static void order_of_top(void) {
-  static const int orders[SPORE_INTEGRATOR_STATIC] = {1, 1, 2, 4, 1, 2, 2, 2};
+  static const int orders[SPORE_INTEGRATOR_STATIC] = {[SPORE_INTEGRATOR_EXPLICIT_EULER] = 1,
+                                                      [SPORE_INTEGRATOR_SYMPLECTIC_EULER] = 1,
+                                                      [SPORE_INTEGRATOR_VERLET] = 2,
+                                                      [SPORE_INTEGRATOR_RK4] = 4,
+                                                      [SPORE_INTEGRATOR_POSITION_BASED] = 1,
+                                                      [SPORE_INTEGRATOR_IMPLICIT_EULER] = 1,
+                                                      [SPORE_INTEGRATOR_IMPLICIT_MIDPOINT] = 2,
+                                                      [SPORE_INTEGRATOR_BDF2] = 2,
+                                                      [SPORE_INTEGRATOR_TR_BDF2] = 2};
   double exact[13], state[13], error[4];
   pulled_state(SPORE_INTEGRATOR_RK4, 1e-5, exact);
   for (SporeIntegratorKind kind = SPORE_INTEGRATOR_EXPLICIT_EULER; kind < SPORE_INTEGRATOR_STATIC; kind++) {
