@@ -193,7 +193,7 @@ void spore_window_recover(SporeWindow *self) {
 static void act_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   if (self->document && !spore_window_may_leave(self)) return;
-  SporeDocument *document = spore_document_new_scene(self->schema);
+  SporeDocument *document = spore_document_new(self->schema);
   spore_document_set_readers(document, &spore_editor_readers);
   spore_window_set_document(self, document);
 }

@@ -1,5 +1,4 @@
 /* Makes, loads and frees a document and its objects. */
-#include "core/integrate/solver.h"
 #include "core/scene/document_private.h"
 
 /* Objects. */
@@ -68,15 +67,6 @@ SporeDocument *spore_document_new(const SporeSchema *schema) {
   const GPtrArray *sections = document->root->type->children;
   for (guint i = 0; i < sections->len; i++)
     attach(spore_object_new(document, g_ptr_array_index(sections, i)), document->root, i);
-  return document;
-}
-
-SporeDocument *spore_document_new_scene(const SporeSchema *schema) {
-  SporeDocument *document = spore_document_new(schema);
-  SporeObject *solver = spore_document_section(document, "solver");
-  int property = spore_parameter_find(solver->type->table, "integrator");
-  SporeValue value = {.type = SPORE_CHOICE, .number = {SPORE_INTEGRATOR_BDF2}};
-  spore_document_load_value(solver, (guint)property, &value, NULL);
   return document;
 }
 

@@ -18,11 +18,6 @@ typedef struct SporeDocument SporeDocument;
 typedef struct SporeObject SporeObject;
 
 SporeDocument *spore_document_new(const SporeSchema *schema); /* schema borrowed; holds the root and its sections */
-/* What an author begins with: empty, and moved by the method that comes nearest to the truth for its time. On 13
- * shipped scenes, at the same cost, errors of bdf2 are .66 times those of the solver's default (geometric mean: from
- * .01 where things swing freely to 2.4 on a sheet in contact), and bdf2 damps what the step does not resolve as that
- * does, which implicit_midpoint (.51) does not. Measured by `spore accuracy SCENE --methods implicit_euler,bdf2`. */
-SporeDocument *spore_document_new_scene(const SporeSchema *schema); /* schema borrowed */
 /* A copy of the scene as it is now, for another thread: it has the same ids, but no history and no comments. It shares
  * decoded assets and content that waits in no file yet. */
 SporeDocument *spore_document_copy(const SporeDocument *document);

@@ -32,16 +32,6 @@ static void test_starts_empty(void) {
   spore_document_free(document);
 }
 
-/* What an author begins with says how it moves, in the file too, and is no change of anybody's. */
-static void test_new_scene(void) {
-  SporeDocument *document = spore_document_new_scene(fixture_schema());
-  g_assert_false(spore_document_is_modified(document));
-  g_assert_false(spore_document_can_undo(document));
-  g_autofree char *text = fixture_format(document);
-  g_assert_nonnull(strstr(text, "<solver integrator=\"bdf2\"/>"));
-  spore_document_free(document);
-}
-
 static void test_set_and_unset(void) {
   SporeDocument *document = spore_document_new(fixture_schema());
   SporeObject *body = insert(document, "bodies", "body", "liver");
@@ -468,7 +458,6 @@ static void test_random_editing(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/starts-empty", test_starts_empty);
-  g_test_add_func("/document/new-scene", test_new_scene);
   g_test_add_func("/document/set-and-unset", test_set_and_unset);
   g_test_add_func("/document/refusals", test_refusals);
   g_test_add_func("/document/names-are-made-unique", test_names_are_made_unique);
