@@ -1693,7 +1693,7 @@ def interruption_leaves_no_torn_picture():
     picture.parent.mkdir(exist_ok=True)
     for _ in range(3):
         picture.write_bytes(b"old")
-        process = subprocess.Popen([SPORE, "render", scene, "--size", "3000x3000", "-o", picture], cwd=WORK, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([SPORE, "render", scene, "--size", "3000x3000", "-o", picture], cwd=WORK, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while process.poll() is None and not temporaries(picture.parent):
             pass
         process.send_signal(signal.SIGTERM)
