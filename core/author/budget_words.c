@@ -20,9 +20,11 @@ char *spore_budget_body_change(const SporeBudgetBody *body) {
   return first ? g_steal_pointer(&first) : g_steal_pointer(&second);
 }
 
+/* Takes over the text; NULL: nothing changes. */
 static void add(GArray *changes, const char *id, char *text) {
+  if (!text) return;
   const SporeBudgetChange change = {g_strdup(id), text};
-  if (text) g_array_append_val(changes, change);
+  g_array_append_val(changes, change);
 }
 
 static void clear_change(gpointer data) {
