@@ -60,6 +60,12 @@ bool spore_world_create_coupled_rooms(SporeWorld *world) {
   return true;
 }
 
+bool spore_world_has_coupled_rooms(const SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].preconditioner.coupled) return true;
+  return false;
+}
+
 static SporeCoupledRoom *room_of(const SporeIslandSystem *system) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;

@@ -275,7 +275,7 @@ bool spore_world_create_solve(SporeWorld *world) {
   solve->local_sites = SPORE_NEW_ARRAY(SporeSite, bodies);
   solve->scratch = spore_allocate(v / 3, solve->scratch_per_block * sizeof(double));
   solve->precondition = SPORE_NEW_ARRAY(double, 3 * v);
-  solve->lanes = SPORE_NEW_ARRAY(double, SPORE_LANES *v);
+  solve->lanes = SPORE_NEW_ARRAY(double, spore_world_has_coupled_rooms(world) ? SPORE_LANES *v : 0);
   bool made = solve->parent && solve->island_of && solve->island_bodies && solve->islands && solve->local_sites &&
               solve->scratch && solve->precondition && solve->lanes;
   double **like_q[] = {&solve->local_q0, &solve->local_q1, &solve->best_q};

@@ -251,6 +251,8 @@ bool spore_body_create_rows(SporeBody *body);
 
 /* coupled_factor.c: makes room for the couplings of an island with each body that has a matrix. False: no memory. */
 bool spore_world_create_coupled_rooms(SporeWorld *world);
+/* Whether a body has such room: without one, nothing is coupled, and the world needs no lanes. */
+bool spore_world_has_coupled_rooms(const SporeWorld *world);
 
 /* integrate.c */
 /* Stage: integrates the islands, each on its own and on any thread. */
