@@ -47,17 +47,22 @@ def print_slowest(builds):
         print(f"{seconds:7.1f} s  {build}  {name.rsplit(' / ')[-1]}")
 
 
+def print_broken_logs(builds):
+    """What the programs printed that did not end well; meson puts that at the end of its log."""
+    for build in builds:
+        log = pathlib.Path(build, "test.log")
+        if log.exists() and any(program["result"] in BROKEN for program in programs(build)):
+            sys.stdout.write("".join(log.read_text(errors="replace").splitlines(keepends=True)[-150:]))
+
+
 def main():
-    results = [check for build in sys.argv[1:] for check in checks(build)]
+    builds = sys.argv[1:]
+    results = [check for build in builds for check in checks(build)]
     failures = [name for name, failed in results if failed]
+    print_broken_logs(builds)
+    print_slowest(builds)
     for name in failures:
-        print("failed:", name)
-    if failures:
-        for build in sys.argv[1:]:
-            log = pathlib.Path(build, "test.log")
-            if log.exists():
-                sys.stdout.write("".join(log.read_text(errors="replace").splitlines(keepends=True)[-150:]))
-    print_slowest(sys.argv[1:])
+        print("failed:", name)  # last: who sees the end of a long log alone sees the names
     print(f"{len(results) - len(failures)} passed, {len(failures)} failed")
     return 1 if failures or not results else 0
 
