@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import sys
+import time
 import traceback
 
 _checks = []
@@ -35,6 +36,7 @@ def main(*arguments, part=0, parts=1):
     print(f"1..{len(mine)}")
     for number, function in enumerate(mine, 1):
         name = (function.__doc__ or function.__name__).splitlines()[0].strip().rstrip(".").replace("#", "")
+        began = time.monotonic()
         try:
             function(*arguments)
             print(f"ok {number} - {name}", flush=True)
@@ -45,4 +47,5 @@ def main(*arguments, part=0, parts=1):
             print(f"not ok {number} - {name}", flush=True)
             for line in traceback.format_exc().splitlines():
                 print("#", line, flush=True)
+        print(f"# {function.__name__} took {time.monotonic() - began:.1f} s", flush=True)
     sys.exit(1 if failed else 0)
