@@ -3,6 +3,7 @@ import functools
 import os
 import pathlib
 import re
+import signal
 import sys
 import time
 import traceback
@@ -24,6 +25,25 @@ class Skip(Exception):
 def is_sanitized(program):
     """A sanitized program reserves more memory than any limit, and is many times slower."""
     return b"__asan_init" in pathlib.Path(program).read_bytes()
+
+
+def wait_for_work(process, seconds=0.2):
+    """Until the process catches Ctrl-C and SIGTERM and has then worked for so much processor time, or is over."""
+    folder = pathlib.Path("/proc", str(process.pid))
+    awaited = 1 << (signal.SIGINT - 1) | 1 << (signal.SIGTERM - 1)
+
+    def catches():
+        return int(re.search(r"SigCgt:\s*(\w+)", (folder / "status").read_text())[1], 16) & awaited == awaited
+
+    def worked_s():
+        fields = (folder / "stat").read_text().rsplit(") ", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    begun_s = None
+    while process.poll() is None and (begun_s is None or worked_s() < begun_s + seconds):
+        if begun_s is None and catches():
+            begun_s = worked_s()
+        time.sleep(0.01)
 
 
 def main(*arguments, part=0, parts=1):

@@ -14,7 +14,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
-from tap import check, is_sanitized, main
+from tap import check, is_sanitized, main, wait_for_work
 
 SPORE = os.path.abspath(sys.argv[1])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-accuracy-"))
@@ -235,9 +235,7 @@ def interruption_leaves_no_part():
     (WORK / "kept.csv").write_text("old numbers\n")
     arguments = [SPORE, "accuracy", SCENES / "table1-deformable.spore", "--full", "--csv", "kept.csv", "--html", "kept.html"]
     process = subprocess.Popen(arguments, cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    caught = 0
-    while process.poll() is None and not caught >> (signal.SIGTERM - 1) & 1: # until it is caught
-        caught = int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16)
+    wait_for_work(process)
     process.send_signal(signal.SIGTERM)
     out, _ = process.communicate(timeout=60)
     assert process.returncode == 130 and not out, (process.returncode, out)

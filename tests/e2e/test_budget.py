@@ -79,7 +79,8 @@ def what_fits_is_made_nearer_and_what_does_not_cheaper():
     assert wide["budget"]["chosen"]["error"] <= wide["budget"]["before"]["error"], wide
     narrow = advise(STRING, round(0.7 * wide["budget"]["before"]["us"], 2))
     before, chosen = narrow["budget"]["before"], narrow["budget"]["chosen"]
-    assert chosen["us"] < before["us"] and narrow["suggestion"], narrow
+    if before["us"] > narrow["budget"]["budget_us"]: # else the clock: the scene was faster this time
+        assert chosen["us"] < before["us"] and narrow["suggestion"], narrow
     assert [e["id"] for e in narrow["elements"]] == ["bodies/string"] and narrow["elements"][0]["verdict"] == "physical"
 
 

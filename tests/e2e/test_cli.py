@@ -18,7 +18,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
-from tap import Skip, check, is_sanitized, main
+from tap import Skip, check, is_sanitized, main, wait_for_work
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SPORE = os.path.abspath(sys.argv[1])
@@ -1540,10 +1540,7 @@ def interruption_keeps_a_recording():
     """Ctrl-C while a run is recorded leaves the track that was there."""
     track = file("kept.track", "an old track\n")
     process = subprocess.Popen([SPORE, "run", grasper(), "--steps", "1000000000", "--record", track], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    caught = 0
-    while process.poll() is None and not caught >> (signal.SIGINT - 1) & 1: # until Ctrl-C is caught
-        caught = int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16)
-    time.sleep(0.5) # some steps; the track is kept without them, too
+    wait_for_work(process)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)
     assert process.returncode == 130 and track.read_text() == "an old track\n" and not temporaries()
@@ -1656,7 +1653,7 @@ def interrupt(number, *arguments, asked_alone=False):
             signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGALRM])
     process = subprocess.Popen([SPORE, *map(str, arguments)], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                preexec_fn=block)
-    time.sleep(1)
+    wait_for_work(process)
     assert process.poll() is None, f"{arguments} ended by itself: {process.communicate()}"
     process.send_signal(number)
     out, err = process.communicate(timeout=60)

@@ -13,7 +13,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
-from tap import check, main
+from tap import check, main, wait_for_work
 
 SPORE = os.path.abspath(sys.argv[1])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-numbers-"))
@@ -280,9 +280,7 @@ def interruption_keeps_the_file():
     """Ctrl-C leaves the file that was there, and no part of a new one."""
     kept = file("kept.csv", "old numbers\n")
     process = subprocess.Popen([SPORE, "run", MINIMAL, "--steps", "1000000000", "--every", "1", "--output", kept], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    caught = 0
-    while process.poll() is None and not caught >> (signal.SIGTERM - 1) & 1: # until it is caught
-        caught = int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16)
+    wait_for_work(process)
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)
     assert process.returncode == 130 and kept.read_text() == "old numbers\n" and not list(WORK.glob(".spore-*"))
