@@ -55,6 +55,14 @@ static void test_torus(void) {
   spore_sphere_set_clear(&again);
 }
 
+/* So many that the search is a shorter one, which still covers: a tenth of the volume outside, a sixth of what 12
+ * leave. */
+static void test_many(void) {
+  SporeTriangleMesh torus;
+  shape_torus(&torus, 0.06, 0.02, 24, 12);
+  check(&torus, 260, 0.1, NULL);
+}
+
 static void test_capsule_chain(void) {
   SporeTriangleMesh chain, next;
   shape_capsule(&chain, 0.02, 0.05, 4);
@@ -136,6 +144,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/generate/spheres-bounding/ball", test_ball);
   g_test_add_func("/generate/spheres-bounding/torus", test_torus);
+  g_test_add_func("/generate/spheres-bounding/many", test_many);
   g_test_add_func("/generate/spheres-bounding/capsule-chain", test_capsule_chain);
   g_test_add_func("/generate/spheres-bounding/shell", test_shell);
   g_test_add_func("/generate/spheres-bounding/hollow", test_hollow);

@@ -82,7 +82,7 @@ static bool cover(Fixture *f, SporeError *error) {
   for (size_t i = 0; i < 12; i++) {
     balls.x[i] = 0.06 * cos((double)i), balls.y[i] = 0.06 * sin((double)i), balls.r[i] = 0.026;
   }
-  bool done = (spore_balls_gaps(&f->solid, &balls, 1e-3, 1e-2, &gaps, &count) &&
+  bool done = (spore_balls_gaps(&f->solid, &balls, 1e-3, 1e-2, 100000, &gaps, &count) &&
                spore_balls_grow_to_cover(&f->solid, &balls)) ||
               spore_generate_no_memory(error);
   if (done) g_assert_cmpuint(count, >, 0);

@@ -13,9 +13,14 @@
 #include "core/generate/spheres/bounding_search.h"
 
 #define FEW 60                /* balls: up to this many, twice the sweeps; up to half as many, three times the sweeps */
+#define MANY 250              /* balls with images: from this many on, less of all that makes few balls better */
+#define MANY_FEWER 4          /* work of relocations, which gain nothing with many balls */
+#define MANY_SAMPLED 60       /* %: points per ball */
 #define WORK_PER_BALL 6000000 /* work of relocations per ball */
 #define WORK_MOST 180000000   /* of all balls together: most solids take less than five seconds */
-#define GAP_VOLUME 0.3        /* of a cube of edge `finest`: volume of an added point */
+#define GAPS_MOST 100000      /* points that a stage adds */
+#define MANY_GAPS_MOST 30000
+#define GAP_VOLUME 0.3 /* of a cube of edge `finest`: volume of an added point */
 
 /* One of the successive stages of the search. */
 typedef struct Stage {
@@ -46,7 +51,8 @@ static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
   size_t count = 0;
   SporeBalls all = {0};
   bool done = make_images(search->solid, search->balls, search->bound, &all) &&
-              spore_balls_gaps(search->solid, &all, stage->margin, stage->finest, &points, &count);
+              spore_balls_gaps(search->solid, &all, stage->margin, stage->finest,
+                               search->many ? MANY_GAPS_MOST : GAPS_MOST, &points, &count);
   for (size_t k = 0; done && k < count; k++)
     spore_vec3_store(points + 3 * k, spore_symmetry_fold(&search->solid->symmetry, spore_vec3_load(points + 3 * k)));
   done = done && spore_costs_add(&search->costs, points, count, GAP_VOLUME * length * length * length);
@@ -61,7 +67,9 @@ static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
 
 static bool sweep(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
                   SporeError *error) {
-  int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)search->balls->count));
+  size_t balls = search->balls->count;
+  int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)balls));
+  if (search->many) sweeps = (sweeps + 1) / 2;
   spore_bounding_set_steps(search, stage->step);
   for (int done = 0; done < sweeps; done++) {
     if (!spore_progress_part(progress, (double)done / sweeps, _("Bounding with spheres"), error)) return false;
@@ -82,6 +90,7 @@ static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const Spo
   if (!stage->relocate) return sweep(search, stage, progress, error);
   uint64_t work = WORK_PER_BALL * search->balls->count;
   if (work > WORK_MOST) work = WORK_MOST;
+  if (search->many) work /= MANY_FEWER;
   return sweep(search, stage, &first, error) && spore_bounding_relocate(search, work, &relocating, error) &&
          sweep(search, stage, &last, error);
 }
@@ -128,7 +137,9 @@ bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, const uint8
   SporeBoundingSearch search = {.solid = solid, .bound = bound, .balls = balls, .random = {seed}};
   SporeProgressPart sampling = {progress->whole, progress->first, 0.1 * progress->share},
                     searching = {progress->whole, progress->first + 0.1 * progress->share, 0.9 * progress->share};
-  if (!spore_costs_create(&search.costs, solid, balls->count, &search.random, &sampling, error)) return false;
+  search.many = spore_balls_images(&solid->symmetry, balls, bound, NULL) >= MANY;
+  size_t sampled = search.many ? balls->count * MANY_SAMPLED / 100 : balls->count;
+  if (!spore_costs_create(&search.costs, solid, sampled, &search.random, &sampling, error)) return false;
   bool done = spore_bounding_open(&search) || spore_generate_no_memory(error);
   done = done && run_stages(&search, &searching, error);
   spore_bounding_close(&search);

@@ -26,10 +26,10 @@ void spore_costs_clear(SporeCosts *costs);
  * false where memory is short. */
 bool spore_balls_cover(const SporeSolid *solid, const SporeBalls *balls);
 /* Middles of surface pieces that no ball contains by `margin` of the diagonal. The pieces have edges of about `finest`
- * of the diagonal, longer where there are very many. *points: x y z each; the caller frees it, on failure too. False:
- * no memory. */
-bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double margin, double finest, double **points,
-                      size_t *count);
+ * of the diagonal, longer where there would be more than `most`. *points: x y z each; the caller frees it, on failure
+ * too. False: no memory. */
+bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double margin, double finest, size_t most,
+                      double **points, size_t *count);
 /* Grows balls until they cover the solid, each about as little as possible. False: no memory. */
 bool spore_balls_grow_to_cover(const SporeSolid *solid, SporeBalls *balls);
 

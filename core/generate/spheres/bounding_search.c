@@ -41,19 +41,17 @@ static bool within(const double bound[4], SporeVec3 c, double radius) {
 
 void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius) {
   const SporePoints *points = &search->costs.points;
-  double inner2 = inner > 0 ? inner * inner : 0;
+  double inner2 = inner > 0 ? inner * inner : 0, at[3] = {c.x, c.y, c.z};
   size_t count = 0;
   for (size_t g = 0; g < points->group_count; g++) {
     if (!reaches(points->group + 4 * g, c, radius) || within(points->group + 4 * g, c, inner)) continue;
     size_t end = (g + 1) * SPORE_GROUP < points->block_count ? (g + 1) * SPORE_GROUP : points->block_count;
     for (size_t b = g * SPORE_GROUP; b < end; b++) {
       if (!reaches(points->block + 4 * b, c, radius) || within(points->block + 4 * b, c, inner)) continue;
-      double square[SPORE_BLOCK];
-      for (size_t k = 0; k < SPORE_BLOCK; k++) square[k] = square_distance(points, b * SPORE_BLOCK + k, c);
-      for (size_t k = 0; k < SPORE_BLOCK; k++) {
-        search->reached[count] = (uint32_t)(b * SPORE_BLOCK + k);
-        count += (square[k] <= radius * radius) & (square[k] >= inner2);
-      }
+      size_t first = b * SPORE_BLOCK;
+      uint32_t bits = SPORE_KERNEL(spore_block_between)(points->x + first, points->y + first, points->z + first, at,
+                                                        inner2, radius * radius);
+      for (; bits; bits &= bits - 1) search->reached[count++] = (uint32_t)(first + (size_t)__builtin_ctz(bits));
     }
   }
   search->reached_count = count;

@@ -39,6 +39,7 @@ typedef struct SporeBoundingSearch {
   SporeCosts costs;
   SporeBalls *balls;
   double cost;  /* of uncovered volume relative to volume outside; from SPORE_BOUNDING_HARD on all must be covered */
+  bool many;    /* more balls than gain from a long search */
   double *step; /* balls: search distance, in radii; spore_bounding_settle adapts it */
   uint32_t *reached; /* scratch: points, reached_count */
   size_t reached_count;

@@ -8,7 +8,7 @@
 
 #define CELLS_PER_BALL 100 /* at the surface, about */
 #define CELLS_LEAST 5000
-#define CELLS_MOST 60000
+#define CELLS_MOST 30000
 #define GRADE 0.4         /* of the distance from the surface: edge of a cell at that distance */
 #define PADDING 1.0       /* of the longest side of the bounding box: how far the points go beyond the solid */
 #define SURFACE_SHARE 2.0 /* points on the surface, relative to the number of cells there */
@@ -37,6 +37,13 @@ static bool add_point(Cells *cells, SporeVec3 p, double volume) {
   return true;
 }
 
+/* What is nearer to a known place than the surface lies on its side. */
+static bool is_inside(const SporeSolid *solid, SporeVec3 p, const SporeBvhKnown *known) {
+  return spore_vec3_distance(p, known->place) < fabs(known->depth) * (1 - 1e-9)
+             ? known->depth > 0
+             : spore_bvh_winding(solid->bvh, p) > 0.5;
+}
+
 static double factor_at(const SporeSolid *solid, SporeVec3 p) {
   return solid->region_count ? spore_solid_factor(solid, p) : 1;
 }
@@ -45,30 +52,31 @@ static double factor_at(const SporeSolid *solid, SporeVec3 p) {
  * stands for all of it. The volume that a ball adds outside is proportional to the square of the surface area that the
  * ball covers. So in a region the volume is weighted by the square of the factor: the sum is then least where the
  * density of balls is larger by the factor. */
-static bool add_cell(Cells *cells, SporeVec3 middle, double edge, int side) {
+static bool add_cell(Cells *cells, SporeVec3 middle, double edge, int side, const SporeBvhKnown *known) {
   double offset[3];
   for (int k = 0; k < 3; k++) offset[k] = edge * (spore_random_unit(cells->random) - 0.5);
   SporeVec3 p = spore_vec3_add(middle, spore_vec3_load(offset));
-  bool inside = side ? side > 0 : spore_bvh_winding(cells->solid->bvh, p) > 0.5;
+  bool inside = side ? side > 0 : is_inside(cells->solid, p, known);
   double factor = factor_at(cells->solid, p), volume = edge * edge * edge * factor * factor;
   return add_point(cells, p, inside ? -volume : volume);
 }
 
-static bool divide(Cells *cells, SporeVec3 middle, double edge) {
+static bool divide(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKnown *known) {
   if (cells->visited++ % REPORT_EVERY == 0 &&
       !spore_progress_part(cells->progress, fmin(1, (double)cells->visited / (4. * CELLS_MOST)),
                            _("Sampling the solid"), cells->error))
     return false;
-  double depth = spore_bvh_depth(cells->solid->bvh, middle), far = fabs(depth) - edge * (sqrt(3) / 2),
+  SporeBvhKnown here = spore_bvh_depth_beside(cells->solid->bvh, middle, known);
+  double depth = here.depth, far = fabs(depth) - edge * (sqrt(3) / 2),
          finest = cells->finest / sqrt(factor_at(cells->solid, middle));
   if (far > 0 && edge <= GRADE * far + (depth > 0 ? 3 : 1.5) * finest)
-    return add_cell(cells, middle, edge, depth > 0 ? 1 : -1);
-  if (edge <= 1.5 * finest) return add_cell(cells, middle, edge, 0);
+    return add_cell(cells, middle, edge, depth > 0 ? 1 : -1, &here);
+  if (edge <= 1.5 * finest) return add_cell(cells, middle, edge, 0, &here);
   for (int k = 0; k < 8; k++) {
     double quarter = edge / 4;
     SporeVec3 at = spore_vec3(middle.x + (k & 1 ? quarter : -quarter), middle.y + (k & 2 ? quarter : -quarter),
                               middle.z + (k & 4 ? quarter : -quarter));
-    if (!divide(cells, at, edge / 2)) return false;
+    if (!divide(cells, at, edge / 2, &here)) return false;
   }
   return true;
 }
@@ -82,7 +90,7 @@ static bool divide_all(Cells *cells) {
   }
   for (int k = 0; k < 3; k++) edge = fmax(edge, upper[k] - lower[k]);
   SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
-  return divide(cells, middle, (1 + 2 * PADDING) * edge);
+  return divide(cells, middle, (1 + 2 * PADDING) * edge, &(SporeBvhKnown){.depth = 0});
 }
 
 /* Adds points on the surface, and all vertices, as these stick out most; only a part of the vertices where there are

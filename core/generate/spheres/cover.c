@@ -12,7 +12,6 @@
 #define FINEST 4e-4   /* of the diagonal: longest edge of the smallest pieces */
 #define TOUCHING 1e-9 /* of the diagonal: corners nearer than this to the outside of a ball count as free */
 #define HOLLOW_ROUNDS 64
-#define GAPS_MOST 100000 /* listed at most */
 
 typedef struct Piece {
   SporeVec3 a, b, c;
@@ -24,11 +23,10 @@ typedef struct Cover {
   const SporeSolid *solid;
   SporeBalls *balls;
   Aim target;
-  uint32_t *near; /* near_count: balls that reach the triangle; later scratch for hollows */
-  size_t near_count;
+  uint32_t *near;          /* balls that reach the triangle, those near the piece first; later scratch for hollows */
   double finest, touching; /* m */
   double *gaps;            /* gap_count x 3: middles of pieces that no ball contains */
-  size_t gap_count, gap_capacity;
+  size_t gap_count, gap_capacity, gaps_most;
   bool failed; /* no memory */
 } Cover;
 
@@ -62,7 +60,7 @@ static double longest_edge(Piece *p) {
 }
 
 static bool add_gap(Cover *cover, const Piece *piece) {
-  if (cover->gap_count == GAPS_MOST) return false;
+  if (cover->gap_count == cover->gaps_most) return false;
   double *gaps = spore_room_for_one(cover->gaps, cover->gap_count, &cover->gap_capacity, 1024, 3 * sizeof *gaps);
   cover->failed |= !gaps;
   if (!gaps) return false;
@@ -72,11 +70,26 @@ static bool add_gap(Cover *cover, const Piece *piece) {
   return true;
 }
 
+/* Puts the listed balls that can matter to the piece or to a part of it first; returns their number. The others would
+ * have to grow by more than twice the edge. */
+static size_t keep_near(Cover *cover, const Piece *piece, double edge, size_t near_count) {
+  size_t kept = 0;
+  for (size_t k = 0; k < near_count; k++) {
+    uint32_t i = cover->near[k];
+    if (spore_vec3_distance(piece->a, spore_balls_centre(cover->balls, i)) > cover->balls->r[i] + 2 * edge) continue;
+    cover->near[k] = cover->near[kept];
+    cover->near[kept++] = i;
+  }
+  return kept;
+}
+
 /* Divides until one ball contains each piece. A piece that is small relative to its distance from all balls is not
- * divided further. False: no ball contains some piece and no ball may grow, the list is full, or there is no memory. */
-static bool cover_piece(Cover *cover, Piece piece) {
+ * divided further. near_count: of the listed balls, those that can matter. False: no ball contains some piece and no
+ * ball may grow, the list is full, or there is no memory. */
+static bool cover_piece(Cover *cover, Piece piece, size_t near_count) {
   double growth, edge = longest_edge(&piece);
-  size_t ball = least_growth(cover->balls, cover->near, cover->near_count, &piece, &growth);
+  near_count = keep_near(cover, &piece, edge, near_count);
+  size_t ball = least_growth(cover->balls, cover->near, near_count, &piece, &growth);
   if (growth <= 0) return true;
   if (edge <= cover->finest || growth > 2 * edge) {
     if (cover->target == CHECK) return false;
@@ -86,7 +99,8 @@ static bool cover_piece(Cover *cover, Piece piece) {
     return true;
   }
   SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(piece.a, piece.b));
-  return cover_piece(cover, (Piece){piece.a, middle, piece.c}) && cover_piece(cover, (Piece){middle, piece.b, piece.c});
+  return cover_piece(cover, (Piece){piece.a, middle, piece.c}, near_count) &&
+         cover_piece(cover, (Piece){middle, piece.b, piece.c}, near_count);
 }
 
 static bool cover_surface(Cover *cover) {
@@ -96,13 +110,11 @@ static bool cover_surface(Cover *cover) {
     for (int k = 0; k < 3; k++) p[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)mesh->triangles[3 * t + k]);
     Piece piece = {p[0], p[1], p[2]};
     double edge = longest_edge(&piece);
-    cover->near_count = 0;
-    for (size_t i = 0; i < cover->balls->count; i++) {
-      double reach = cover->balls->r[i] + edge;
-      if (spore_vec3_distance(p[0], spore_balls_centre(cover->balls, i)) <= reach)
-        cover->near[cover->near_count++] = (uint32_t)i;
-    }
-    if (!cover_piece(cover, piece)) return false;
+    size_t near = 0;
+    for (size_t i = 0; i < cover->balls->count; i++)
+      if (spore_vec3_distance(p[0], spore_balls_centre(cover->balls, i)) <= cover->balls->r[i] + edge)
+        cover->near[near++] = (uint32_t)i;
+    if (!cover_piece(cover, piece, near)) return false;
   }
   return true;
 }
@@ -257,15 +269,17 @@ bool spore_balls_grow_to_cover(const SporeSolid *solid, SporeBalls *balls) {
   return !cover.failed;
 }
 
-bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double margin, double finest, double **points,
-                      size_t *count) {
+bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double margin, double finest, size_t most,
+                      double **points, size_t *count) {
   SporeBalls smaller;
   Cover cover;
   *points = NULL, *count = 0;
   if (!spore_balls_create(&smaller, balls->count)) return false;
   spore_balls_copy(&smaller, balls);
   for (size_t i = 0; i < balls->count; i++) smaller.r[i] -= margin * solid->diagonal;
-  bool done = open_cover(&cover, solid, &smaller, LIST, finest), whole = done && cover_surface(&cover);
+  bool done = open_cover(&cover, solid, &smaller, LIST, finest), whole;
+  cover.gaps_most = most;
+  whole = done && cover_surface(&cover);
   while (done && !whole && !cover.failed) { /* too many gaps: larger pieces */
     cover.gap_count = 0;
     cover.finest *= 2;

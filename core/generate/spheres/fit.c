@@ -12,8 +12,7 @@
 #define FIRST_ROUNDS 60
 #define FILL_EVERY 6
 #define LAST_ROUNDS 24
-#define POLISHED_MOST 1000 /* balls: for more balls the polish has too few samples */
-#define SETTLED 1e-5       /* relative change of the loss in a round below which the last rounds end */
+#define SETTLED 1e-5 /* relative change of the loss in a round below which the last rounds end */
 
 static double loss_of(const SporeFit *fit, const SporeField *field) {
   const SporeSamples *s = fit->samples;
@@ -183,6 +182,5 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
   if (done) spore_balls_copy(balls, &fit.best);
   close_fit(&fit);
   SporeProgressPart last = {progress->whole, progress->first + 0.75 * progress->share, 0.25 * progress->share};
-  if (rough || balls->count > POLISHED_MOST) return done;
-  return done && spore_spheres_polish(solid, balls, bound, samples->typical, seed, &last, error);
+  return done && (rough || spore_spheres_polish(solid, balls, bound, samples->typical, seed, &last, error));
 }

@@ -7,7 +7,8 @@
 
 #define SAMPLES_PER_BALL 700 /* at the surface, about */
 #define SAMPLES_LEAST 12000
-#define SAMPLES_MOST 90000
+#define SAMPLES_MOST 90000 /* unless there are so many balls that each has too few */
+#define SAMPLES_PER_BALL_LEAST 180
 #define NEAR 0.2 /* of the typical radius: samples are dense up to this distance from the surface */
 #define FAR 0.7  /* of the typical radius: how far outside samples go */
 #define REPORT_EVERY 4096
@@ -102,7 +103,8 @@ static bool sort_cells(const Cells *cells, SporeSamples *samples) {
 
 bool spore_samples_create_graded(SporeSamples *samples, const SporeSolid *solid, size_t count, double typical,
                                  SporeRandom *random, const SporeProgressPart *progress, SporeError *error) {
-  double wanted = fmin(fmax(SAMPLES_PER_BALL * (double)count, SAMPLES_LEAST), SAMPLES_MOST);
+  double most = fmax(SAMPLES_MOST, SAMPLES_PER_BALL_LEAST * (double)count);
+  double wanted = fmin(fmax(SAMPLES_PER_BALL * (double)count, SAMPLES_LEAST), most);
   double area = solid->triangle_end[solid->mesh.triangle_count - 1], near = NEAR * typical, far = FAR * typical;
   Cells cells = {.solid = solid,
                  .finest = cbrt(2 * near * area / wanted),

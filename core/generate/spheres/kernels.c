@@ -28,6 +28,26 @@ void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const floa
   }
 }
 
+uint32_t SPORE_LEVEL_NAME(spore_block_between)(const double *x, const double *y, const double *z, const double at[3],
+                                               double inner, double outer) {
+  double square[SPORE_BLOCK];
+  uint32_t bits = 0;
+  for (int k = 0; k < SPORE_BLOCK; k++) {
+    double dx = x[k] - at[0], dy = y[k] - at[1], dz = z[k] - at[2];
+    square[k] = dx * dx + dy * dy + dz * dz;
+  }
+  for (int k = 0; k < SPORE_BLOCK; k++) bits |= (uint32_t)((square[k] <= outer) & (square[k] >= inner)) << k;
+  return bits;
+}
+
+void SPORE_LEVEL_NAME(spore_balls_reach)(const double *x, const double *y, const double *z, const double *r,
+                                         size_t count, const double bound[4], uint8_t *restrict reaches) {
+  for (size_t i = 0; i < count; i++) {
+    double dx = x[i] - bound[0], dy = y[i] - bound[1], dz = z[i] - bound[2], reach = r[i] + bound[3];
+    reaches[i] = dx * dx + dy * dy + dz * dz < reach * reach;
+  }
+}
+
 void SPORE_LEVEL_NAME(spore_local_distances)(const float *x, const float *y, const float *z, size_t count,
                                              const float at[3], float *restrict distance) {
   float cx = at[0], cy = at[1], cz = at[2];

@@ -18,6 +18,14 @@ typedef struct SporeNearBalls {
 SPORE_DECLARE_KERNEL(void, spore_field_block, const SporeNearBalls *balls, const float *x, const float *y,
                      const float *z, float *best, float *second, float *owner);
 
+/* Bit k: point k of the SPORE_BLOCK points x, y, z has a squared distance from `at` in [inner, outer]. */
+SPORE_DECLARE_KERNEL(uint32_t, spore_block_between, const double *x, const double *y, const double *z,
+                     const double at[3], double inner, double outer);
+
+/* reaches[i]: 1 where ball i reaches into the bounding sphere (centre and radius), else 0. */
+SPORE_DECLARE_KERNEL(void, spore_balls_reach, const double *x, const double *y, const double *z, const double *r,
+                     size_t count, const double bound[4], uint8_t *reaches);
+
 #define SPORE_LOCAL_LANES 16 /* columns of points are padded to a multiple of this */
 
 /* distance[k] of the points from `at`; count is rounded up to whole lanes. */

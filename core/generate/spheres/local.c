@@ -11,7 +11,8 @@
 #define SPLIT_SHARE 0.5 /* of a ball's burden: the expected gain of a split */
 #define MOST_ACTIVE 40  /* balls refitted in a trial */
 #define TRIAL_ROUNDS 8
-#define WORK 32000  /* groups of samples evaluated, after which no more trials are made */
+#define WORK_LEAST 32000 /* groups of samples evaluated, after which no more trials are made */
+#define WORK_PER_BALL 48
 #define PATIENCE 12 /* passes without gain, after which the search ends */
 
 typedef struct Local {
@@ -26,7 +27,7 @@ typedef struct Local {
   double before[4 * MOST_ACTIVE], last[4 * MOST_ACTIVE]; /* active balls before the trial; before the round */
   double found[4 * MOST_ACTIVE];                         /* active balls at the least loss */
   double known[4 * MOST_ACTIVE];                         /* see SporeFit, before the trial */
-  size_t active_count, work;
+  size_t active_count, work, most_work;
 } Local;
 
 static size_t group_first(size_t g) { return g * SPORE_GROUP * SPORE_BLOCK; }
@@ -204,7 +205,7 @@ static bool pass(Local *l, double shake, size_t *paid, const SporeProgressPart *
   spore_fit_rank(fit, shake);
   memset(fit->marked, 0, n * sizeof *fit->marked);
   *paid = 0;
-  for (size_t i = 0; i < n && tried < most && l->work < WORK; i++) {
+  for (size_t i = 0; i < n && tried < most && l->work < l->most_work; i++) {
     uint32_t target = fit->heaviest[i];
     if (fit->marked[target]) continue;
     while (next < n && (fit->marked[fit->order[next]] || fit->order[next] == target)) next++;
@@ -212,7 +213,8 @@ static bool pass(Local *l, double shake, size_t *paid, const SporeProgressPart *
     uint32_t spare = fit->order[next];
     fit->marked[target] = fit->marked[spare] = true;
     tried++;
-    if (!spore_progress_part(progress, fmin(1, (double)l->work / WORK), _("Fitting spheres"), error)) return false;
+    if (!spore_progress_part(progress, fmin(1, (double)l->work / (double)l->most_work), _("Fitting spheres"), error))
+      return false;
     if (!try_split(l, spare, target)) continue;
     ++*paid;
     for (size_t k = 0; k < l->active_count; k++) fit->marked[l->active[k]] = true;
@@ -254,7 +256,9 @@ bool spore_fit_relocate(SporeFit *fit, const SporeProgressPart *progress, SporeE
     if (g % 64 == 0) done = spore_progress_part(progress, 0, _("Fitting spheres"), error);
   }
   local.work = 0;
-  while (done && failures < PATIENCE && local.work < WORK) {
+  local.most_work = WORK_PER_BALL * fit->balls.count;
+  if (local.most_work < WORK_LEAST) local.most_work = WORK_LEAST;
+  while (done && failures < PATIENCE && local.work < local.most_work) {
     size_t paid;
     done = pass(&local, shake, &paid, progress, error);
     if (paid) failures = 0;

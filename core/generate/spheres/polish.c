@@ -10,6 +10,8 @@
 
 #define ROUNDS_MOST 160
 #define ROUNDS_LEAST 30
+#define MANY 1000 /* balls: from this many on, ROUNDS_MANY, as relocations before did less for each */
+#define ROUNDS_MANY 60
 #define ROUNDS_OF_BALLS 16000 /* balls times rounds, within those limits */
 #define BLUR_FIRST 0.25       /* of the typical radius: on both sides of a ball's surface, in the first round */
 #define BLUR_LAST 0.06        /* in the last round */
@@ -163,6 +165,7 @@ static bool run(Polish *p, const SporeProgressPart *progress, SporeError *error)
   double best = loss_of(p);
   spore_balls_copy(&p->best, p->balls);
   int rounds = (int)fmin(fmax(ROUNDS_OF_BALLS / (double)p->balls->count, ROUNDS_LEAST), ROUNDS_MOST);
+  if (p->balls->count >= MANY) rounds = ROUNDS_MANY;
   for (int round = 0; round < rounds; round++) {
     double fraction = (double)round / rounds;
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;

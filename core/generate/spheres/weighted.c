@@ -14,7 +14,8 @@
 #define LAST_TRIAL 700
 #define MOST_REPLACED 10 /* at most one ball in this many, in a trial */
 #define SAMPLES 4        /* times the samples of a balanced fit, as a ball has a fifth unknown */
-#define PART 60000       /* samples evaluated in a round, about */
+#define WHOLE 60000      /* samples: up to this many are all evaluated in a round */
+#define PART 35000       /* of more samples, about how many are evaluated in a round */
 #define START_LEVEL 0.4  /* of the typical radius */
 #define SMOOTHING_FIRST 0.2
 #define SMOOTHING_LAST 0.01
@@ -71,7 +72,8 @@ static void step(SporeWeightedFit *fit, int done, double rate) {
 }
 
 static bool fit_rounds(SporeWeightedFit *fit, const SporeProgressPart *progress, SporeError *error) {
-  size_t parts = 1 + fit->samples.points.count / PART, most = fit->balls.count / MOST_REPLACED + 1;
+  size_t samples = fit->samples.points.count, parts = samples < WHOLE ? 1 : 1 + samples / PART;
+  size_t most = fit->balls.count / MOST_REPLACED + 1;
   for (int round = 0; round < ROUNDS; round++) {
     double share = (double)round / ROUNDS, typical = fit->samples.typical;
     if (!spore_progress_part(progress, share, _("Weighing spheres"), error)) return false;
@@ -108,12 +110,13 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
   fit->slope = SPORE_NEW_ARRAY(double, unknowns);
   fit->running = SPORE_NEW_ARRAY(double, 2 * unknowns);
   fit->known = SPORE_NEW_ARRAY(double, 4 * n);
-  fit->near_group = SPORE_NEW_ARRAY(SporeWeightedImage, images);
-  fit->near_block = SPORE_NEW_ARRAY(SporeWeightedImage, images);
+  fit->reaches = SPORE_NEW_ARRAY(uint8_t, images);
   fit->columns = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images);
   fit->slopes = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images + 1);
   if (!spore_balls_create(&fit->balls, n) || !fit->weights || !fit->sum || !fit->slope || !fit->running ||
-      !fit->known || !fit->near_group || !fit->near_block || !fit->columns || !fit->slopes)
+      !fit->known || !fit->reaches || !fit->columns || !fit->slopes ||
+      !spore_weighted_images_create(&fit->images, images) || !spore_weighted_images_create(&fit->near_group, images) ||
+      !spore_weighted_images_create(&fit->near_block, images))
     return false;
   share_out(&fit->samples, fit->solid);
   spore_balls_copy(&fit->balls, balls);
@@ -127,8 +130,10 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
 static void close_fit(SporeWeightedFit *fit) {
   double *const arrays[] = {fit->weights, fit->sum, fit->slope, fit->running, fit->known};
   for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) spore_free(arrays[k]);
-  spore_free(fit->near_group);
-  spore_free(fit->near_block);
+  spore_weighted_images_clear(&fit->images);
+  spore_weighted_images_clear(&fit->near_group);
+  spore_weighted_images_clear(&fit->near_block);
+  spore_free(fit->reaches);
   spore_free(fit->columns);
   spore_free(fit->slopes);
   spore_balls_clear(&fit->balls);

@@ -1,6 +1,7 @@
 /* The sum of weighted balls at the samples and its slopes by the balls' unknowns, block by block. */
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/generate/spheres/kernels.h"
 #include "core/generate/spheres/weighted_parts.h"
 
@@ -16,22 +17,47 @@ double spore_weighted_reach(const SporeWeightedFit *fit) {
   return fit->levelled ? REACH * fit->samples.band : fit->samples.band;
 }
 
-static bool reaches(const SporeWeightedFit *fit, SporeWeightedImage image, const double bound[4], SporeVec3 *centre) {
-  *centre = spore_symmetry_mirror(&fit->solid->symmetry, image.planes, spore_balls_centre(&fit->balls, image.ball));
-  return spore_vec3_distance(*centre, spore_vec3_load(bound)) < fit->balls.r[image.ball] + bound[3];
+bool spore_weighted_images_create(SporeWeightedImages *images, size_t most) {
+  double *columns = SPORE_NEW_ARRAY(double, 4 * most);
+  *images = (SporeWeightedImages){.ball = SPORE_NEW_ARRAY(uint32_t, most), .planes = SPORE_NEW_ARRAY(uint8_t, most)};
+  images->x = columns;
+  if (columns) images->y = columns + most, images->z = columns + 2 * most, images->r = columns + 3 * most;
+  return columns && images->ball && images->planes;
 }
 
-/* Collects the balls and images that reach the group; returns their number. */
-static size_t gather_near(SporeWeightedFit *fit, size_t group) {
-  const double *bound = fit->samples.points.group + 4 * group;
-  size_t near = 0;
+void spore_weighted_images_clear(SporeWeightedImages *images) {
+  spore_free(images->x);
+  spore_free(images->ball);
+  spore_free(images->planes);
+  *images = (SporeWeightedImages){0};
+}
+
+static void add_image(SporeWeightedImages *to, SporeVec3 centre, double radius, uint32_t ball, uint8_t planes) {
+  size_t n = to->count++;
+  to->x[n] = centre.x, to->y[n] = centre.y, to->z[n] = centre.z, to->r[n] = radius;
+  to->ball[n] = ball, to->planes[n] = planes;
+}
+
+/* The balls and their images as they are now. */
+static void find_images(SporeWeightedFit *fit) {
+  const SporeSymmetry *symmetry = &fit->solid->symmetry;
+  fit->images.count = 0;
   for (size_t i = 0; i < fit->balls.count; i++)
-    for (unsigned planes = 0; planes < 1u << fit->solid->symmetry.count; planes++) {
-      SporeWeightedImage image = {(uint32_t)i, (uint8_t)planes};
-      SporeVec3 unused;
-      if (!(planes & fit->bound[i]) && reaches(fit, image, bound, &unused)) fit->near_group[near++] = image;
+    for (unsigned planes = 0; planes < 1u << symmetry->count; planes++) {
+      if (planes & fit->bound[i]) continue;
+      SporeVec3 centre = spore_symmetry_mirror(symmetry, planes, spore_balls_centre(&fit->balls, i));
+      add_image(&fit->images, centre, fit->balls.r[i], (uint32_t)i, (uint8_t)planes);
     }
-  return near;
+}
+
+/* Collects those of the images that reach into the bounding sphere. */
+static void gather_near(SporeWeightedFit *fit, const SporeWeightedImages *from, const double bound[4],
+                        SporeWeightedImages *near) {
+  SPORE_KERNEL(spore_balls_reach)(from->x, from->y, from->z, from->r, from->count, bound, fit->reaches);
+  near->count = 0;
+  for (size_t n = 0; n < from->count; n++)
+    if (fit->reaches[n])
+      add_image(near, spore_vec3(from->x[n], from->y[n], from->z[n]), from->r[n], from->ball[n], from->planes[n]);
 }
 
 /* Adds the slopes of the images to their balls, mirrored back. */
@@ -39,10 +65,10 @@ static void add_slopes(SporeWeightedFit *fit, size_t count) {
   const SporeSymmetry *symmetry = &fit->solid->symmetry;
   for (size_t n = 0; n < count; n++) {
     const float *s = fit->slopes + SPORE_WEIGHTED_UNKNOWNS * n;
-    double *to = fit->slope + SPORE_WEIGHTED_UNKNOWNS * (size_t)fit->near_block[n].ball;
+    double *to = fit->slope + SPORE_WEIGHTED_UNKNOWNS * (size_t)fit->near_block.ball[n];
     SporeVec3 v = spore_vec3((double)s[0], (double)s[1], (double)s[2]);
     for (unsigned k = 0; k < symmetry->count; k++)
-      if (fit->near_block[n].planes >> k & 1)
+      if (fit->near_block.planes[n] >> k & 1)
         v = spore_vec3_add_scaled(v, -2 * spore_vec3_dot(v, symmetry->normal[k]), symmetry->normal[k]);
     to[0] += v.x, to[1] += v.y, to[2] += v.z, to[3] += (double)s[3], to[4] += (double)s[4];
   }
@@ -62,21 +88,19 @@ static void load_samples(const SporeWeightedFit *fit, size_t b, double unit, flo
   }
 }
 
-static void evaluate_block(SporeWeightedFit *fit, size_t b, size_t near) {
+static void evaluate_block(SporeWeightedFit *fit, size_t b) {
   const double *middle = fit->samples.points.block + 4 * b, unit = fit->samples.typical;
   float sample[SPORE_WEIGHTED_UNKNOWNS][SPORE_BLOCK], sum[SPORE_BLOCK];
   float *x = fit->columns, *y = x + fit->image_count, *z = y + fit->image_count, *r = z + fit->image_count,
         *weight = r + fit->image_count;
+  const SporeWeightedImages *near = &fit->near_block;
   size_t count = 0;
   load_samples(fit, b, unit, sample);
-  for (size_t n = 0; n < near; n++) {
-    SporeWeightedImage image = fit->near_group[n];
-    SporeVec3 c;
-    if (!reaches(fit, image, middle, &c)) continue;
-    x[count] = (float)((c.x - middle[0]) / unit), y[count] = (float)((c.y - middle[1]) / unit);
-    z[count] = (float)((c.z - middle[2]) / unit), r[count] = (float)(fit->balls.r[image.ball] / unit);
-    weight[count] = (float)fit->weights[image.ball];
-    fit->near_block[count++] = image;
+  gather_near(fit, &fit->near_group, middle, &fit->near_block);
+  for (; count < near->count; count++) {
+    x[count] = (float)((near->x[count] - middle[0]) / unit), y[count] = (float)((near->y[count] - middle[1]) / unit);
+    z[count] = (float)((near->z[count] - middle[2]) / unit), r[count] = (float)(near->r[count] / unit);
+    weight[count] = (float)fit->weights[near->ball[count]];
   }
   SporeWeightedBlock block = {count,
                               x,
@@ -99,10 +123,12 @@ static void evaluate_block(SporeWeightedFit *fit, size_t b, size_t near) {
 void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts) {
   const SporePoints *points = &fit->samples.points;
   fit->level_slope = 0;
+  find_images(fit);
   memset(fit->slope, 0, SPORE_WEIGHTED_UNKNOWNS * fit->balls.count * sizeof *fit->slope);
   for (size_t g = 0; g < points->group_count; g++) {
-    size_t near = gather_near(fit, g), end = (g + 1) * SPORE_GROUP;
+    size_t end = (g + 1) * SPORE_GROUP;
+    gather_near(fit, &fit->images, points->group + 4 * g, &fit->near_group);
     for (size_t b = g * SPORE_GROUP; b < end && b < points->block_count; b++)
-      if (b % parts == part) evaluate_block(fit, b, near);
+      if (b % parts == part) evaluate_block(fit, b);
   }
 }
