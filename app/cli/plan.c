@@ -95,6 +95,19 @@ static void remark_coupled(GString *remarks, const char *body, const SporeMethod
     g_string_append_printf(remarks, _("%s: %s moves it, since its step does not resolve its links\n"), body, implicit);
 }
 
+static void remark_impacts(SporeCli *cli, GString *remarks, const char *body, SporeImpacts impacts) {
+  const char *follower = spore_integrator_names[SPORE_INTEGRATOR_VERLET];
+  json_builder_set_member_name(cli->report, "impacts");
+  if (impacts == SPORE_IMPACTS_FOLLOWED) json_builder_add_string_value(cli->report, follower);
+  else json_builder_add_null_value(cli->report);
+  if (impacts == SPORE_IMPACTS_FOLLOWED)
+    g_string_append_printf(remarks, _("%s: %s follows its impacts with one other rigid body, in parts of the step\n"),
+                           body, follower);
+  if (impacts == SPORE_IMPACTS_LINKED)
+    g_string_append_printf(remarks, _("%s: how fast it leaves an impact depends on the step, since a link ties it\n"),
+                           body);
+}
+
 static void report_damping(SporeCli *cli, const SporeWorld *world, guint body, GString *remarks) {
   double share;
   json_builder_set_member_name(cli->report, "damping_a_second");
@@ -117,6 +130,7 @@ static void report_remarks(SporeCli *cli, const SporeWorld *world, guint body, c
   spore_cli_count(cli, "resolving_substeps", (gint64)method->resolving);
   remark_coupled(remarks, spore_world_body_name(world, body), method,
                  spore_world_body_model(world, body)->type->rates != NULL);
+  remark_impacts(cli, remarks, spore_world_body_name(world, body), method->impacts);
   report_damping(cli, world, body, remarks);
 }
 
@@ -242,7 +256,8 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "factor_s (each time that its matrix is factorised; 0: never), step_s (at least). Of one "
           "with an explicit integrator implicit_by: links or contacts that its step does not resolve, so "
           "that implicit_euler moves it then; null: nothing. resolving_substeps: would resolve the links; 0: "
-          "none would, or none need to. damping_a_second: the share of its energy that the method takes from "
+          "none would, or none need to. impacts: what follows its impacts with rigid bodies in parts of the step; "
+          "null: nothing does. damping_a_second: the share of its energy that the method takes from "
           "its slowest swing; null: not known")},
       {"branches",
        N_("names of held bodies by static, which may have several balances: the one reached by following the load "

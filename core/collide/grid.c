@@ -91,6 +91,12 @@ static bool pair_sleeps(const SporeGrid *grid, const SporeSpheres *spheres, cons
   return pair->a < grid->static_count || grid->bodies[spheres->body[pair->a]] & SPORE_GRID_ASLEEP;
 }
 
+/* Whether the pair is looked at for this step alone: one of its bodies is soft, or physics moves neither. */
+static bool is_soft(const SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair) {
+  unsigned char flags = grid->bodies[spheres->body[pair->a]] | grid->bodies[spheres->body[pair->b]];
+  return flags & SPORE_GRID_SOFT || !(flags & SPORE_GRID_PASSIVE);
+}
+
 static void note_passed(SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair, double dt_s) {
   SporeContact contact;
   if (grid->passed_count == grid->capacity || !spore_narrow_passed(spheres, pair->a, pair->b, dt_s, &contact)) return;
@@ -109,7 +115,7 @@ static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double
     if (grid->strides) note_passed(grid, spheres, pair, dt_s);
     bool room = contact_count < grid->capacity;
     SporeContact *contact = room ? &grid->contacts[contact_count] : &beyond;
-    if (!spore_narrow_contact(spheres, pair->a, pair->b, dt_s, contact)) continue;
+    if (!spore_narrow_contact(spheres, pair->a, pair->b, dt_s, is_soft(grid, spheres, pair), contact)) continue;
     if (room) contact_count++;
     else ++*missed;
   }
@@ -122,7 +128,8 @@ static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double
 static void find_balls(SporeGrid *grid, const SporeSpheres *spheres, double dt_s) {
   size_t first = grid->static_count, count = grid->count - first;
   double *balls = grid->balls + 4 * first;
-  bool fast = spore_cells_find_balls(spheres, first, count, dt_s, balls) > 0.25 * grid->smallest;
+  double widest = spore_cells_find_balls(spheres, first, count, grid->ahead * dt_s, balls);
+  bool fast = widest > 0.25 * grid->ahead * grid->smallest;
   grid->strides = spheres->before && dt_s > 0 && (fast || grid->fast);
   grid->fast = fast;
   if (grid->strides) spore_cells_add_ways(spheres, first, count, balls);
@@ -285,8 +292,14 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
   return complete;
 }
 
+static bool some_meet_themselves(const SporeGrid *grid) {
+  for (size_t i = 0; i < grid->body_count; i++)
+    if (grid->bodies[i] & SPORE_GRID_SELF) return true;
+  return false;
+}
+
 static bool exclude_rest_contacts(SporeGrid *grid, const SporeSpheres *rest) {
-  if (!memchr(grid->bodies, SPORE_GRID_PASSIVE | SPORE_GRID_SELF, grid->body_count)) return true;
+  if (!some_meet_themselves(grid)) return true;
   double *still = SPORE_NEW_ARRAY(double, 3 * rest->count), *wider = SPORE_NEW_ARRAY(double, rest->count);
   unsigned char *selves = SPORE_NEW_ARRAY(unsigned char, grid->body_count);
   bool complete = still && wider && selves && build_exclusions(grid, rest, still, wider, selves);
@@ -298,7 +311,14 @@ static bool exclude_rest_contacts(SporeGrid *grid, const SporeSpheres *rest) {
 
 static unsigned char flags_of(const SporeGridBody *body) {
   if (!body->passive) return body->active ? SPORE_GRID_ACTIVE : 0;
-  return body->self ? SPORE_GRID_PASSIVE | SPORE_GRID_SELF : SPORE_GRID_PASSIVE;
+  return (unsigned char)(SPORE_GRID_PASSIVE | (body->self ? SPORE_GRID_SELF : 0) | (body->soft ? SPORE_GRID_SOFT : 0));
+}
+
+/* Steps that some pair is looked ahead for. */
+static double steps_ahead(const SporeGridBody *bodies, size_t body_count) {
+  for (size_t i = 0; i < body_count; i++)
+    if (bodies[i].passive && !bodies[i].soft) return SPORE_SPHERES_AHEAD;
+  return 1;
 }
 
 static bool take_groups(SporeGrid *grid, const SporeGridBody *bodies) {
@@ -318,6 +338,7 @@ SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodi
   for (size_t i = 0; flags && i < body_count; i++) flags[i] = flags_of(&bodies[i]);
   SporeGrid *grid = flags ? create_plain(rest, flags, body_count, contact_capacity) : NULL;
   spore_free(flags);
+  if (grid) grid->ahead = steps_ahead(bodies, body_count);
   if (grid && take_groups(grid, bodies) && exclude_rest_contacts(grid, rest)) return grid;
   spore_grid_free(grid);
   refuse_memory(error);

@@ -27,6 +27,7 @@ typedef struct SporeGridBody {
   bool passive;   /* moved by physics */
   bool active;    /* moved by a device or a track */
   bool self;      /* its spheres collide with each other */
+  bool soft;      /* passive, and its spheres move against each other */
   uint32_t group; /* bodies of one group never pair with each other; 0: none */
 } SporeGridBody;
 
@@ -47,7 +48,8 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity);
 /* Finds the contacts of spheres that start the step at `centre` and move with `velocity` for dt_s (0: as they stand).
  * A contact is a pair that overlaps now (depth > 0), or a fast one (SPORE_SPHERES_FAST) that meets within the step: its
  * normal is then the one at first touch, and its depth (<= 0) grows along the normal to 0 at that time,
- * depth + t (-gap_speed) = 0.
+ * depth + t (-gap_speed) = 0. Of two bodies that are not soft, also one slower than fast that meets within
+ * SPORE_SPHERES_AHEAD steps: what falls gets faster in the step.
  *
  * Contacts are ordered by (a, b). Coincident centres: the normal opposes the relative velocity, and is +y where there
  * is none. Spheres that are not finite touch nothing. Count and layout of the spheres and the radii are as at creation.

@@ -5,7 +5,13 @@
 #include "core/collide/cells.h"
 #include "core/collide/grid.h"
 
-enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2, SPORE_GRID_ASLEEP = 4, SPORE_GRID_ACTIVE = 8 };
+enum {
+  SPORE_GRID_PASSIVE = 1,
+  SPORE_GRID_SELF = 2,
+  SPORE_GRID_ASLEEP = 4,
+  SPORE_GRID_ACTIVE = 8,
+  SPORE_GRID_SOFT = 16
+};
 
 typedef struct SporePair {
   uint32_t a, b; /* a < b */
@@ -31,6 +37,7 @@ struct SporeGrid {
   uint32_t *excluded;
 
   double smallest;        /* radius, m */
+  double ahead;           /* steps that pairs are looked ahead for */
   bool fast;              /* some sphere moves so far in this step that it may pass another */
   bool strides;           /* some sphere did so in the step before, or does so now: it may have passed another */
   SporeContact *contacts; /* capacity */

@@ -18,7 +18,8 @@ static double time_of_touch(SporeVec3 p, SporeVec3 w, double r) {
   return b < 0 && discriminant >= 0 ? c / (sqrt(discriminant) - b) : -1;
 }
 
-bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, double dt_s, SporeContact *contact) {
+bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, double dt_s, bool soft,
+                          SporeContact *contact) {
   assert(a < b && b < spheres->count);
   assert(dt_s >= 0);
   SporeVec3 offset = spore_vec3_sub(spore_vec3_load(spheres->centre + 3 * a), spore_vec3_load(spheres->centre + 3 * b));
@@ -35,9 +36,10 @@ bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, d
     contact->gap_speed = spore_vec3_dot(contact->normal, velocity);
     return true;
   }
-  if (!(spore_vec3_length(velocity) * dt_s > SPORE_SPHERES_FAST * fmin(ra, rb))) return false;
+  double speed = spore_vec3_length(velocity);
+  if (!(soft ? speed * dt_s > SPORE_SPHERES_FAST * fmin(ra, rb) : speed > spheres->slowest)) return false;
   double touch_s = time_of_touch(offset, velocity, sum);
-  if (!(touch_s >= 0 && touch_s <= dt_s)) return false;
+  if (!(touch_s >= 0 && touch_s <= (soft ? 1 : SPORE_SPHERES_AHEAD) * dt_s)) return false;
   contact->normal = spore_vec3_normalise(spore_vec3_add_scaled(offset, touch_s, velocity), (SporeVec3){0, 1, 0});
   contact->gap_speed = spore_vec3_dot(contact->normal, velocity);
   contact->depth = contact->gap_speed * touch_s;

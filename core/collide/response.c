@@ -18,6 +18,11 @@ SporeContactLaw spore_contact_law(const SporeContactMaterial *a, const SporeCont
   };
 }
 
+SporeVec3 spore_contact_turn_stretch(SporeVec3 stretch, SporeVec3 normal) {
+  SporeVec3 flat = spore_vec3_add_scaled(stretch, -spore_vec3_dot(stretch, normal), normal);
+  return spore_vec3_scale(spore_vec3_length(stretch), spore_vec3_normalise(flat, (SporeVec3){0, 0, 0}));
+}
+
 SporeVec3 spore_contact_slip(const SporeContactLaw *law, SporeVec3 stretch, double pressing) {
   if (!(law->stiffness > 0 && law->friction > 0 && pressing > 0)) return (SporeVec3){0, 0, 0};
   double square = spore_vec3_dot(stretch, stretch), longest = law->friction * pressing / law->stiffness;

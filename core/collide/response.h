@@ -119,6 +119,9 @@ SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactS
 /* The stretch that is left of one where N presses: what is longer has slipped. */
 SporeVec3 spore_contact_slip(const SporeContactLaw *law, SporeVec3 stretch, double pressing);
 
+/* The stretch, turned into the present tangent plane of the contact. */
+SporeVec3 spore_contact_turn_stretch(SporeVec3 stretch, SporeVec3 normal);
+
 /* The speed up to which the law stops a mass of 1/inverse_mass kg, that comes in from outside, within `depth` m:
  *   r w exp(z / sqrt(1 - z^2) acos z),  w = sqrt(k/m),  z = c / (2 sqrt(k m)),
  * of the damped oscillator from 0 depth, with its analytic continuation for z > 1; without damping r sqrt(k/m). */

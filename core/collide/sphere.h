@@ -11,6 +11,10 @@
  * looks ahead for their contact, since without its force they would be deep in each other when the next step begins. */
 #define SPORE_SPHERES_FAST 0.25
 
+/* Steps that pairs of bodies that are not soft are looked ahead for. What they enter without a force they would get
+ * back with one: energy from nothing. A soft body has its own damping. */
+#define SPORE_SPHERES_AHEAD 1.5
+
 /* All spheres of a world, those of one body next to each other. Unmovable bodies come first. */
 typedef struct SporeSpheres {
   size_t count, static_count;
@@ -20,6 +24,7 @@ typedef struct SporeSpheres {
   uint32_t *body;   /* count: index of the body */
   double *before;   /* count x 3, m: the centre a step ago; where a sphere was put where it is since, the centre, or
                        not a number. NULL: nothing is known of a step before */
+  double slowest; /* m/s: bodies that are not soft are looked ahead for where they meet faster (SPORE_SPHERES_AHEAD) */
 } SporeSpheres;
 
 /* Normal from b to a; depth > 0 when they overlap. */

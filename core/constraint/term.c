@@ -96,6 +96,37 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
+double spore_contact_term_parting(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *x) {
+  locate(&term->a, term->arm_a, sites, q);
+  locate(&term->b, term->arm_b, sites, q);
+  return spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, x));
+}
+
+/* The end is where it is at q; the arm leads from there to the contact point. */
+static void follow_end(SporeEnd *end, SporeVec3 position, SporeVec3 arm, SporeVec3 *frame_arm, const SporeSite *sites,
+                       const double *q) {
+  end->position = position;
+  if (end->prescribed) end->offset = (SporeVec3){0, 0, 0};
+  if (!turns(end)) return;
+  SporeQuat turn = spore_quat_load(q + sites[end->body].q + 3);
+  *frame_arm = spore_quat_rotate(spore_quat_conjugate(turn), arm);
+}
+
+void spore_contact_term_follow(SporeContactTerm *term, double radius_a, double radius_b, const SporeSite *sites,
+                               const double *q) {
+  if (term->field_a || term->field_b) return;
+  SporeVec3 a = position_of(&term->a, sites, q), b = position_of(&term->b, sites, q), apart = spore_vec3_sub(a, b);
+  double distance = spore_vec3_length(apart);
+  SporeVec3 stretch = spore_contact_term_stretch(term, sites, q);
+  if (distance > 0) term->normal = spore_vec3_scale(1 / distance, apart);
+  term->stretch = spore_contact_turn_stretch(stretch, term->normal);
+  term->depth = radius_a + radius_b - distance;
+  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
+  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+  follow_end(&term->a, a, term->arm_a, &term->frame_arm_a, sites, q);
+  follow_end(&term->b, b, term->arm_b, &term->frame_arm_b, sites, q);
+}
+
 void spore_contact_term_hold(SporeContactTerm *term) {
   assert(term->a.prescribed && term->b.prescribed);
   spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);

@@ -37,9 +37,10 @@ typedef struct SporeContactTerm {
   bool field_a, field_b;              /* the body is felt as one: depth follows its contact point, not the centre */
   SporeVec3 stretch;                  /* of friction's spring, when the step began, m */
   SporeContactLaw law;
-  SporeVec3 drag;  /* at the last linearisation: see spore_contact_jacobian */
-  SporeVec3 force; /* on a, at the last evaluation, N */
-  double pressing; /* its normal part; infinite before the first */
+  SporeVec3 drag;    /* at the last linearisation: see spore_contact_jacobian */
+  SporeVec3 force;   /* on a, at the last evaluation, N */
+  double pressing;   /* its normal part; infinite before the first */
+  SporeVec3 impulse; /* on a, N s: of the parts of a step in an impact, see core/sim/solve/impact.c */
 } SporeContactTerm;
 
 /* What end b of a spring runs along, instead of staying where it is on its body: the place nearest to end a, found anew
@@ -97,6 +98,13 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
                               double elapsed_s, double *f);
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f);
+/* How fast end a parts from end b along the normal, by a vector x of velocities (or accelerations) at q, of what
+ * physics moves. */
+double spore_contact_term_parting(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *x);
+/* Makes the contact of two spheres the one that is found at q, as if a step began there: with its normal, depth and
+ * arms, and what is left of its stretch. A contact with a depth field stays as it is. */
+void spore_contact_term_follow(SporeContactTerm *term, double radius_a, double radius_b, const SporeSite *sites,
+                               const double *q);
 /* Sets the force of a term of which physics moves no end: a device may still feel the force. */
 void spore_contact_term_hold(SporeContactTerm *term);
 void spore_spring_term_hold(SporeSpringTerm *term);

@@ -191,6 +191,7 @@ static SporeGridBody grid_body(const SporeBody *body) {
   return (SporeGridBody){.passive = body->role == SPORE_PASSIVE,
                          .active = body->role == SPORE_ACTIVE,
                          .self = body->collision.fields.self,
+                         .soft = body->role == SPORE_PASSIVE && !spore_model_is_rigid(body->model),
                          .group = (uint32_t)body->collision.fields.group};
 }
 

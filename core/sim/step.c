@@ -308,6 +308,7 @@ bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMetho
   if (body->method.integrator != body->method.chosen) method->integrator.source = SPORE_SOURCE_MONITOR;
   /* Islands are sorted anew by each step, so that sorting them changes nothing that is kept. */
   method->coupled = spore_body_coupled((SporeWorld *)(uintptr_t)world, index, &method->resolving);
+  method->impacts = spore_body_impacts(world, index);
   if (method->coupled == SPORE_COUPLED_CONTACTS) method->margin = widest_margin(world, index);
   if (!integrator->implicit && method->coupled == SPORE_COUPLED_NEVER) return true;
   method->nonlinear = nonlinear_choice(world, body, method->balances);

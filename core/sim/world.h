@@ -320,6 +320,12 @@ typedef enum SporeCoupled {
   SPORE_COUPLED_CONTACTS, /* contacts, in steps that do not resolve them */
   SPORE_COUPLED_LINKS,    /* links that a step does not resolve, or links with bodies of other methods */
 } SporeCoupled;
+/* How far impacts of a body are followed, so that it leaves them as fast at any step. */
+typedef enum SporeImpacts {
+  SPORE_IMPACTS_NONE,     /* nothing can touch the body, or it is not rigid: its own swings take more of an impact */
+  SPORE_IMPACTS_FOLLOWED, /* in parts as short as the contacts need */
+  SPORE_IMPACTS_LINKED,   /* not followed, since a link ties the body */
+} SporeImpacts;
 /* How a passive body is integrated and solved now. */
 typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
@@ -328,6 +334,7 @@ typedef struct SporeMethod {
   bool balances; /* static, and held by a pin or a link: each step finds a balance, one of several that there may be */
   SporeCoupled coupled;
   size_t resolving; /* coupled by links: as many substeps would resolve them; 0: no number of them does */
+  SporeImpacts impacts;
   double margin; /* coupled by contacts: steps are implicit, too, in which spheres are so near, m, at most; 0: none */
 } SporeMethod;
 /* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine

@@ -73,6 +73,8 @@ typedef struct SporeCollisionUnit {
 /* contacts.c */
 /* Stage: maps the spheres from the last good state. */
 void spore_world_map_spheres(SporeWorld *world);
+/* Speed of a rigid body, m/s, below which what it meets is no impact: what falls for a few steps is as fast. */
+double spore_world_slowest_impact(const SporeWorld *world);
 /* Stage: finds the pairs of spheres that touch, and fills the manifold. */
 void spore_world_detect(SporeWorld *world);
 /* Stage: makes contact terms of the manifold. */

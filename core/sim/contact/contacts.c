@@ -113,10 +113,21 @@ static void count_left_out(SporeWorld *world) {
       spore_world_count_unsolved(world, b, SPORE_UNSOLVED_LEFT_OUT, (double)world->contact.missed);
 }
 
+#define SLOWEST_IMPACT 5e-3 /* m/s */
+#define STEPS_OF_FALL 2
+
+double spore_world_slowest_impact(const SporeWorld *world) {
+  return fmax(SLOWEST_IMPACT, STEPS_OF_FALL * world->solver.time_step * spore_vec3_length(world->state.gravity));
+}
+
+/* Of the slowest impact: what meets so slowly enters without a force before the next step. */
+#define LOOKED_AHEAD 0.125
+
 static void find_contacts(SporeWorld *world) {
   assert(world->contact.reach);
   SporeSpheres reaching = world->contact.spheres;
   reaching.radius = world->contact.reach;
+  reaching.slowest = LOOKED_AHEAD * spore_world_slowest_impact(world);
   world->contact.count =
       spore_grid_detect(world->contact.grid, &reaching, world->solver.time_step, &world->contact.missed);
 }

@@ -191,7 +191,7 @@ static size_t meet(const SporeWorld *world, const SporeManifoldContact *pairs, s
   size_t made = 0;
   for (size_t i = 0; i < count; i++) {
     SporeContact contact = pairs[i].contact;
-    if (spore_narrow_contact(&world->contact.spheres, contact.a, contact.b, world->solver.time_step, &contact))
+    if (spore_narrow_contact(&world->contact.spheres, contact.a, contact.b, world->solver.time_step, true, &contact))
       to[made++] = one_by_one(contact);
   }
   return made;

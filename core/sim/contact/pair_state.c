@@ -57,12 +57,6 @@ void spore_world_keep_pairs(SporeWorld *world) {
   world->contact.pair_count = count;
 }
 
-/* The stretch, turned into the present tangent plane of the contact. */
-static SporeVec3 turn_stretch(SporeVec3 stretch, SporeVec3 normal) {
-  SporeVec3 flat = spore_vec3_add_scaled(stretch, -spore_vec3_dot(stretch, normal), normal);
-  return spore_vec3_scale(spore_vec3_length(stretch), spore_vec3_normalise(flat, (SporeVec3){0, 0, 0}));
-}
-
 /* The state of this pair, from index `first` on, whose normal is nearest; NULL: none is near enough. */
 static const SporePairState *find_state(const SporeWorld *world, size_t first, uint64_t pair, SporeVec3 normal) {
   const SporePairState *found = NULL;
@@ -97,7 +91,7 @@ void spore_world_restore_pairs(SporeWorld *world) {
     uint64_t pair = pair_of(term->pair_a, term->pair_b);
     while (next < world->contact.pair_count && pair_of_state(&world->contact.pairs[next]) < pair) next++;
     const SporePairState *state = find_state(world, next, pair, term->normal);
-    term->stretch = state ? turn_stretch(state->stretch, term->normal) : (SporeVec3){0, 0, 0};
+    term->stretch = state ? spore_contact_turn_stretch(state->stretch, term->normal) : (SporeVec3){0, 0, 0};
     bool put = is_put(world, &term->a, term->sphere_a) || is_put(world, &term->b, term->sphere_b);
     double most = put ? HUGE_VAL : find_overlap(world, next, pair);
     term->overlap = fmin(fmax(term->depth, 0), most); /* smaller as the pair parts */

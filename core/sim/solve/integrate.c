@@ -244,13 +244,15 @@ static void integrate_island(void *data, size_t index) {
   SporeWorld *world = data;
   SporeIsland *island = &world->solve.islands[index];
   spore_island_gather(world, island);
-  couple(world, island);
-  bool looked_at = is_looked_at(world, island);
+  double part_s;
+  bool strikes = spore_island_strikes(world, island, &part_s);
+  if (!strikes) couple(world, island);
+  bool looked_at = !strikes && is_looked_at(world, island);
   if (looked_at) take_halves(world, island);
-  island->result = advance(world, island);
+  island->result = strikes ? spore_island_advance_impact(world, island, part_s) : advance(world, island);
   if (spore_cancel_asked(world->cancel)) return; /* the step ends, and nothing of what it did is kept */
   if (looked_at) island->error = error_of_step(world, island);
-  if (spore_island_choose(world, island)) {
+  if (!strikes && spore_island_choose(world, island)) {
     SporeStepResult spent = island->result;
     spore_island_gather(world, island);
     island->result = advance(world, island);

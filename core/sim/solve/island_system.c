@@ -175,6 +175,19 @@ static bool resolves_springs(const SporeIslandSystem *system, double h, const do
   return true;
 }
 
+double spore_island_system_short_step(const SporeIslandSystem *system, double part) {
+  assert(part > 0 && system->island->spring_count == 0);
+  double *counts = spore_island_system_precondition_blocks(system), step = HUGE_VAL; /* free: no matrix is made yet */
+  count_terms(system, counts);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
+    double inverse_mass = contact_inverse_mass(system->world, term, counts);
+    double stiffness = inverse_mass * term->law.stiffness, damping = inverse_mass * term->law.damping;
+    step = fmin(step, part / sqrt(stiffness + damping * damping));
+  }
+  return isfinite(step) ? step : 0;
+}
+
 bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links) {
   assert(h > 0);
   if (system->island->contact_count + (links ? system->island->spring_count : 0) == 0) return true;

@@ -42,6 +42,9 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 /* Whether a step of h seconds is short for all contacts of the island, and for its links: h w (h k + d) is at most
  * 0.25, w the sum of n/m over the blocks of both ends, n the number of terms that share a block. */
 bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links);
+/* The longest step, s, with (h^2 w k + (h w d)^2)^1/2 no more than `part`, in radians, for all contacts; 0: none has a
+ * stiffness or damping. For islands without links. */
+double spore_island_system_short_step(const SporeIslandSystem *system, double part);
 /* Whether a pin holds the island, or a link to a body that physics does not move. */
 bool spore_island_system_is_held(const SporeIslandSystem *system);
 /* A digest of the laws of contacts and links: where it changed, forces at the same q, v and t are others. */

@@ -273,6 +273,16 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
  * *resolving: see SporeMethod. To be called between steps: sorts the bodies into islands. */
 SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t body, size_t *resolving);
 
+/* impact.c */
+/* How far the impacts of a passive body are followed. */
+SporeImpacts spore_body_impacts(const SporeWorld *world, uint32_t body);
+/* Whether the island is of rigid bodies alone that meet, press or part faster than its own method follows; then *part_s
+ * is the step that follows the impact. */
+bool spore_island_strikes(SporeWorld *world, SporeIsland *island, double *part_s);
+/* Takes the island through one step in parts of that length. Its contacts end as they are found when the last part
+ * begins, with their mean force. */
+SporeStepResult spore_island_advance_impact(SporeWorld *world, SporeIsland *island, double part_s);
+
 /* multirate.c: one step of an island whose bodies move by several methods, or have contacts or links that their
  * explicit method does not resolve. */
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island);
