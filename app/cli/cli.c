@@ -273,7 +273,8 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
   int unit_chosen = spore_cli_choice("--unit", unit ? unit : "m", spore_length_units, error);
   int frame_chosen = frame ? spore_cli_choice("--frame", frame, spore_mesh_frames, error) : 0;
   if (unit_chosen < 0 || frame_chosen < 0) return FALSE;
-  g_autoptr(GBytes) read = spore_cli_read_file(file, _("a mesh"), error);
+  g_autoptr(GBytes) given = spore_cli_read_file(file, _("a mesh"), error);
+  g_autoptr(GBytes) read = given ? spore_mesh_whole(file, given, error) : NULL;
   if (!read) return FALSE;
   gsize size = 0;
   const char *bytes = g_bytes_get_data(read, &size);

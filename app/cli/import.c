@@ -49,6 +49,10 @@ static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *
   g_autofree char *size = spore_length_text(figures->diagonal);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "body", name);
+  spore_cli_text(cli, "group", *body->group ? body->group : NULL);
+  spore_cli_open_array(cli, "colour");
+  for (int k = 0; body->coloured && k < 3; k++) spore_cli_number(cli, NULL, body->colour[k]);
+  spore_cli_close_array(cli);
   spore_cli_text(cli, "file", body->source ? body->source->file : NULL);
   if (body->source) unit = body->source->unit;
   spore_cli_text(cli, "unit", unit < 0 ? NULL : spore_length_units[unit]); /* null: several files, each with its own */
@@ -202,7 +206,9 @@ static int understand(Request *request) {
 int spore_command_import(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"bodies", N_("names of the bodies of the scene")},
-      {"meshes", N_("of each body that was made: body, file, unit, frame, diagonal_m (across, as read)")},
+      {"meshes",
+       N_("of each body that was made: body, file, unit, frame, diagonal_m (across, as read), "
+          "group (the nodes of the file that it lies in), colour (that the file gives it, sRGB; else empty)")},
       {"meshes.as_read",
        N_("triangles, components, boundary_edges, nonmanifold_edges, degenerate_triangles, volume_m3, area_m2")},
       {"meshes.operations", N_("in the order done: name, argument, moved_m (largest distance, sampled)")},

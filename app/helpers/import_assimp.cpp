@@ -1,6 +1,8 @@
 /* Reads a mesh file with assimp behind an interface in C: one importer, one block of memory, and no other file. */
 #include "app/helpers/import_assimp.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +16,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/importerdesc.h>
 #include <assimp/LogStream.hpp>
+#include <assimp/material.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -88,13 +91,54 @@ struct Mesh {
   uint64_t passed_over = 0;
 };
 
+/* Names such as "nodes[2]" are the importer's: the file has none there. So are those of the root of several nodes, and
+ * of the one file. */
+std::string name_of(const aiString &name) {
+  const std::string text = name.C_Str();
+  for (const char *made : {"nodes[", "meshes[", "mesh.", "<"})
+    if (text.rfind(made, 0) == 0) return "";
+  if (text == "ROOT") return "";
+  return text;
+}
+
+/* Light that a base colour lets through, as the value of sRGB (IEC 61966-2-1). */
+float to_srgb(double light) {
+  const double one = std::min(std::max(light, 0.0), 1.0);
+  return static_cast<float>(one <= 0.0031308 ? 12.92 * one : 1.055 * std::pow(one, 1 / 2.4) - 0.055);
+}
+
+/* Takes the colour of the mesh with the most faces. A mesh that names no material has the importer's own, which is the
+ * last one of glTF. */
+void take_colour(const aiScene &scene, const aiNode &node, SporeImportPart &part) {
+  const aiMesh *largest = nullptr;
+  for (unsigned m = 0; m < node.mNumMeshes; m++) {
+    const aiMesh *mesh = scene.mMeshes[node.mMeshes[m]];
+    if (!largest || mesh->mNumFaces > largest->mNumFaces) largest = mesh;
+  }
+  if (!largest || largest->mMaterialIndex + 1 >= scene.mNumMaterials) return;
+  const aiMaterial &material = *scene.mMaterials[largest->mMaterialIndex];
+  aiColor4D colour;
+  if (material.GetTextureCount(aiTextureType_BASE_COLOR) || material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS)
+    return;
+  const double light[3] = {colour.r, colour.g, colour.b};
+  for (int k = 0; k < 3; k++) {
+    if (!std::isfinite(light[k])) return;
+    part.colour[k] = to_srgb(light[k]);
+  }
+  part.coloured = 1;
+}
+
 /* The meshes of a node differ only in material. Together they are one part. */
-void end_part(const aiNode &node, Mesh &mesh) {
+void end_part(const aiScene &scene, const aiNode &node, const std::string &group, Mesh &mesh) {
   SporeImportPart part = {};
   part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
   if (!part.triangle_count) return;
   mesh.in_parts += part.triangle_count;
-  std::string(node.mName.C_Str()).copy(part.name, sizeof part.name - 1);
+  std::string name = name_of(node.mName);
+  if (name.empty()) name = name_of(scene.mMeshes[node.mMeshes[0]]->mName);
+  name.copy(part.name, sizeof part.name - 1);
+  group.copy(part.group, sizeof part.group - 1);
+  take_colour(scene, node, part);
   mesh.parts.push_back(part);
 }
 
@@ -118,7 +162,8 @@ void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh)
   }
 }
 
-void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, Mesh &mesh) {
+/* group: the names of the nodes that the node lies in. */
+void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, const std::string &group, Mesh &mesh) {
   const aiMatrix4x4 transform = outer * node.mTransformation;
   const bool mirrored = transform.Determinant() < 0;
   for (unsigned m = 0; m < node.mNumMeshes; m++) {
@@ -135,8 +180,10 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
     }
     append_faces(from, first, mirrored, mesh);
   }
-  end_part(node, mesh);
-  for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
+  end_part(scene, node, group, mesh);
+  const std::string name = name_of(node.mName);
+  const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;
+  for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, inner, mesh);
 }
 
 void check_faces(const aiScene &scene) {
@@ -198,7 +245,7 @@ Mesh import(const char *extension, const void *content, size_t size) {
   if (!scene)
     throw Refusal{SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"), said};
   Mesh mesh;
-  if (scene->mRootNode) append(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  if (scene->mRootNode) append(*scene, *scene->mRootNode, aiMatrix4x4(), "", mesh);
   if (mesh.triangles.empty())
     throw Refusal{SPORE_ERROR_INPUT,
                   mesh.vertices.empty()

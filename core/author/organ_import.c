@@ -30,6 +30,7 @@ static void free_file(SporeImportFile *file) {
 
 static void free_body(SporeImportBody *body) {
   g_free(body->name);
+  g_free(body->group);
   spore_triangle_mesh_clear(&body->mesh);
   g_array_unref(body->changes);
   g_free(body);
@@ -61,11 +62,14 @@ GBytes *spore_import_read_content(const char *file, GError **error) {
   return bytes ? g_bytes_new_take(bytes, size) : NULL;
 }
 
-/* Takes the mesh over. */
-static void add_body(Intake *intake, const char *name, const SporeImportFile *source, SporeTriangleMesh *mesh,
-                     bool changed) {
+/* Takes the mesh over. part: says group and colour; NULL: nothing says them. */
+static void add_body(Intake *intake, const char *name, const SporeImportFile *source, const SporeMeshPart *part,
+                     SporeTriangleMesh *mesh, bool changed) {
   SporeImportBody *body = g_new0(SporeImportBody, 1);
   body->name = g_strdup(name);
+  body->group = g_strdup(part ? part->group : "");
+  body->coloured = part && part->coloured;
+  if (part) memcpy(body->colour, part->colour, sizeof body->colour);
   body->source = source;
   body->mesh = *mesh;
   body->changed = changed;
@@ -87,8 +91,9 @@ static gboolean too_many(const char *place, gsize count, GError **error) {
                            count, SPORE_IMPORT_BODIES_MAXIMUM);
 }
 
-static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFile *file, SporeTriangleMesh *mesh,
+static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFile *file, SporeMeshPart *part,
                            GError **error) {
+  SporeTriangleMesh *mesh = &part->mesh;
   SporeError failure = SPORE_ERROR_INIT;
   uint32_t *pieces = NULL;
   gsize count = 0;
@@ -98,9 +103,9 @@ static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFi
     SporeTriangleMesh piece;
     done = spore_triangle_mesh_extract(mesh, pieces, (uint32_t)p, &piece, &failure) ||
            spore_error_propagate(&failure, error);
-    if (done) add_body(intake, name, file, &piece, true);
+    if (done) add_body(intake, name, file, part, &piece, true);
   }
-  if (done && count == 1) add_body(intake, name, file, mesh, false);
+  if (done && count == 1) add_body(intake, name, file, part, mesh, false);
   spore_free(pieces);
   return done;
 }
@@ -129,7 +134,7 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
             spore_triangle_mesh_smooth(&surface, LABEL_ROUNDS, &progress, &failure)) ||
            spore_error_propagate(&failure, error);
     done = done && spore_mesh_tidy(name, &surface, error);
-    if (done) add_body(intake, name, file, &surface, true);
+    if (done) add_body(intake, name, file, NULL, &surface, true);
     else spore_triangle_mesh_clear(&surface);
   }
   spore_label_map_clear(&map);
@@ -170,42 +175,53 @@ static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *
                                  error);
 }
 
-/* One file's bodies. */
-static gboolean add_file(Intake *intake, const char *path, GError **error) {
+/* A body of each part, or of each piece, as the options divide the mesh. */
+static gboolean add_parts(Intake *intake, const SporeImportFile *file, const GPtrArray *parts, GError **error) {
   SporeImportDivision division = intake->options->division;
-  SporeImportFile *file = g_new0(SporeImportFile, 1);
-  g_ptr_array_add(intake->import->files, file);
-  file->file = g_strdup(path);
-  file->content = spore_import_read_content(path, error);
-  GBytes *whole = file->content ? spore_label_map_whole(path, file->content, error) : NULL;
-  if (!whole) return FALSE;
-  g_bytes_unref(file->content);
-  file->content = whole;
-  gsize size;
-  const void *bytes = g_bytes_get_data(file->content, &size);
-  if (spore_label_map_is(path, bytes, size)) {
-    file->label_map = true;
-    file->frame_said = -1;
-    file->overruled = intake->options->frame > 0;
-    return add_labels(intake, file, bytes, size, error);
-  }
-  file->frame_said = spore_mesh_frame_hint(bytes, size);
-  file->frame = intake->options->frame >= 0 ? intake->options->frame : MAX(file->frame_said, 0);
-  g_autoptr(GPtrArray) parts = read_parts(intake, file, bytes, size, error);
-  if (!parts) return FALSE;
-  file->joined = file->parts > 1 && division == SPORE_IMPORT_FILES;
-  g_autofree char *stem = stem_of(path);
+  g_autofree char *stem = stem_of(file->file);
   gboolean done = TRUE;
   for (guint p = 0; done && p < parts->len; p++) {
     SporeMeshPart *part = g_ptr_array_index(parts, p);
     const char *name = *part->name ? part->name : stem;
     if (division == SPORE_IMPORT_PIECES || (division == SPORE_IMPORT_PARTS && parts->len == 1))
-      done = add_pieces(intake, name, file, &part->mesh, error);
-    else add_body(intake, name, file, &part->mesh, parts->len > 1);
+      done = add_pieces(intake, name, file, part, error);
+    else add_body(intake, name, file, part, &part->mesh, parts->len > 1);
   }
   if (done && intake->import->bodies->len > SPORE_IMPORT_BODIES_MAXIMUM)
-    done = too_many(path, intake->import->bodies->len, error);
+    done = too_many(file->file, intake->import->bodies->len, error);
   return done;
+}
+
+static gboolean add_mesh(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
+  file->frame_said = spore_mesh_frame_hint(bytes, size);
+  file->frame = intake->options->frame >= 0 ? intake->options->frame : MAX(file->frame_said, 0);
+  g_autoptr(GPtrArray) parts = read_parts(intake, file, bytes, size, error);
+  if (!parts) return FALSE;
+  file->joined = file->parts > 1 && intake->options->division == SPORE_IMPORT_FILES;
+  return add_parts(intake, file, parts, error);
+}
+
+/* The content of the file, joined with the parts that it keeps in other files beside it. */
+static GBytes *read_whole(const char *path, GError **error) {
+  g_autoptr(GBytes) given = spore_import_read_content(path, error);
+  g_autoptr(GBytes) map = given ? spore_label_map_whole(path, given, error) : NULL;
+  return map ? spore_mesh_whole(path, map, error) : NULL;
+}
+
+/* One file's bodies. */
+static gboolean add_file(Intake *intake, const char *path, GError **error) {
+  SporeImportFile *file = g_new0(SporeImportFile, 1);
+  g_ptr_array_add(intake->import->files, file);
+  file->file = g_strdup(path);
+  file->content = read_whole(path, error);
+  if (!file->content) return FALSE;
+  gsize size;
+  const void *bytes = g_bytes_get_data(file->content, &size);
+  if (!spore_label_map_is(path, bytes, size)) return add_mesh(intake, file, bytes, size, error);
+  file->label_map = true;
+  file->frame_said = -1;
+  file->overruled = intake->options->frame > 0;
+  return add_labels(intake, file, bytes, size, error);
 }
 
 /* Joins all bodies into the first. */
@@ -260,6 +276,15 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
   return g_steal_pointer(&import);
 }
 
+/* Draws the body in the colour that the file gives it. */
+static gboolean paint(SporeDocument *document, SporeObject *made, const SporeImportBody *body, GError **error) {
+  if (!body->coloured) return TRUE;
+  char one[3][G_ASCII_DTOSTR_BUF_SIZE];
+  for (int k = 0; k < 3; k++) g_ascii_formatd(one[k], sizeof one[k], "%.3f", body->colour[k]);
+  g_autofree char *colour = g_strjoin(" ", one[0], one[1], one[2], NULL);
+  return spore_document_set_text(document, spore_object_child_of(made, "visual"), "colour", colour, error);
+}
+
 static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {
   const SporeImportFile *source = body->source;
   if (!body->changed)
@@ -275,7 +300,7 @@ gboolean spore_import_insert(SporeDocument *document, const SporeImport *import,
   g_autoptr(GPtrArray) made = g_ptr_array_new();
   for (guint i = 0; i < import->bodies->len; i++) {
     SporeObject *body = insert_body(document, g_ptr_array_index(import->bodies, i), error);
-    if (!body) return FALSE;
+    if (!body || !paint(document, body, g_ptr_array_index(import->bodies, i), error)) return FALSE;
     g_ptr_array_add(made, body);
   }
   if (bodies) *bodies = g_steal_pointer(&made);

@@ -40,11 +40,14 @@ typedef struct SporeImportFile {
 /* A body that will be inserted. */
 typedef struct SporeImportBody {
   char *name;
+  char *group;                   /* as SporeMeshPart.group; "" for a body of several parts */
   const SporeImportFile *source; /* NULL: several */
-  bool changed;                  /* its mesh differs from the mesh in the file */
-  SporeTriangleMesh mesh;        /* m, SPORE's axes */
-  SporeMeshFigures as_read;      /* after division or joining */
-  GArray *changes;               /* SporeMeshChange, in the order done */
+  double colour[3];              /* as SporeMeshPart.colour */
+  bool coloured;
+  bool changed;             /* its mesh differs from the mesh in the file */
+  SporeTriangleMesh mesh;   /* m, SPORE's axes */
+  SporeMeshFigures as_read; /* after division or joining */
+  GArray *changes;          /* SporeMeshChange, in the order done */
 } SporeImportBody;
 
 typedef struct SporeImport {

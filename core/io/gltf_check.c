@@ -5,79 +5,11 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/io/json_scan.h"
 #include "core/mesh/mesh.h"
 
-#define DEEPEST_VALUE 100
 #define DEEPEST_NODE 256
 #define NONE G_MAXUINT32
-
-/* JSON (RFC 8259): values in the order of the text. */
-
-typedef struct Json {
-  const char *at, *end;
-  gboolean bad; /* this is not JSON; nothing more is read */
-} Json;
-
-typedef struct Key {
-  const char *text;
-  gsize length;
-} Key;
-
-static gboolean fail_json(Json *json) {
-  json->bad = TRUE;
-  return FALSE;
-}
-
-static gboolean take(Json *json, char wanted) {
-  while (json->at < json->end && strchr(" \t\n\r", *json->at) && *json->at) json->at++;
-  if (json->bad || json->at == json->end || *json->at != wanted) return FALSE;
-  json->at++;
-  return TRUE;
-}
-
-static gboolean read_string(Json *json, Key *string) {
-  if (!take(json, '"')) return fail_json(json);
-  string->text = json->at;
-  for (; json->at < json->end && *json->at != '"'; json->at++)
-    if (*json->at == '\\') json->at++;
-  if (json->at >= json->end) return fail_json(json);
-  string->length = (gsize)(json->at++ - string->text);
-  return TRUE;
-}
-
-/* A number or a word. */
-static gboolean read_scalar(Json *json, Key *scalar) {
-  scalar->text = json->at;
-  while (json->at < json->end && (g_ascii_isalnum(*json->at) || strchr("+-.", *json->at)) && *json->at) json->at++;
-  scalar->length = (gsize)(json->at - scalar->text);
-  return scalar->length > 0 || fail_json(json);
-}
-
-/* Whether there is another item before `close`, and goes to it. *count: of items so far. */
-static gboolean next_item(Json *json, char close, gsize *count) {
-  if (json->bad || take(json, close)) return FALSE;
-  if (*count > 0 && !take(json, ',')) return fail_json(json);
-  ++*count;
-  return TRUE;
-}
-
-/* The same for a member of an object; reads its key. */
-static gboolean next_member(Json *json, gsize *count, Key *key) {
-  if (!next_item(json, '}', count)) return FALSE;
-  return read_string(json, key) && (take(json, ':') || fail_json(json));
-}
-
-static void skip_value(Json *json, int depth) {
-  gsize count = 0;
-  Key key;
-  if (depth > DEEPEST_VALUE) fail_json(json);
-  else if (take(json, '{'))
-    while (next_member(json, &count, &key)) skip_value(json, depth + 1);
-  else if (take(json, '['))
-    while (next_item(json, ']', &count)) skip_value(json, depth + 1);
-  else if (json->at < json->end && *json->at == '"') read_string(json, &key);
-  else if (!json->bad) read_scalar(json, &key);
-}
 
 /* The file. */
 
@@ -88,7 +20,7 @@ typedef struct Gltf {
   const char *place;
   GError **error;
   gboolean failed; /* *error is set */
-  Json json;
+  SporeJson json;
   const char *sections[SECTIONS]; /* where each array begins; NULL: there is none */
   gsize counts[SECTIONS];
   guint64 *elements;           /* of each accessor */
@@ -110,7 +42,7 @@ static gboolean fail(Gltf *gltf, const char *format, ...) {
 }
 
 /* A key could be hidden by an escape, which a library would undo. */
-static gboolean is_key(Gltf *gltf, Key key, const char *name) {
+static gboolean is_key(Gltf *gltf, SporeJsonText key, const char *name) {
   if (memchr(key.text, '\\', key.length))
     return fail(gltf, _("a name in the glTF text has an escape (\\); expected plain names; export the mesh again"));
   return key.length == strlen(name) && memcmp(key.text, name, key.length) == 0;
@@ -119,10 +51,10 @@ static gboolean is_key(Gltf *gltf, Key key, const char *name) {
 /* Reads a whole number within the bounds; `section` and `index` are for the message. */
 static gboolean read_whole(Gltf *gltf, int section, gsize index, const char *name, guint64 least, guint64 most,
                            guint64 *value) {
-  Key scalar = {"", 0};
-  Json *json = &gltf->json;
+  SporeJsonText scalar = {"", 0};
+  SporeJson *json = &gltf->json;
   while (json->at < json->end && g_ascii_isspace(*json->at)) json->at++;
-  if (json->bad || !read_scalar(json, &scalar)) return FALSE;
+  if (json->bad || !spore_json_scalar(json, &scalar)) return FALSE;
   gsize digits = 0;
   *value = 0;
   for (; digits < scalar.length && g_ascii_isdigit(scalar.text[digits]) && digits < 18; digits++)
@@ -151,25 +83,25 @@ static gsize read_section(Gltf *gltf, int section, ReadItem *read) {
   gsize count = 0;
   if (!gltf->sections[section]) return 0;
   gltf->json.at = gltf->sections[section];
-  if (!take(&gltf->json, '[')) fail_json(&gltf->json);
-  while (next_item(&gltf->json, ']', &count))
+  if (!spore_json_take(&gltf->json, '[')) spore_json_fail(&gltf->json);
+  while (spore_json_next_item(&gltf->json, ']', &count))
     if (read) read(gltf, count - 1);
-    else skip_value(&gltf->json, 1);
+    else spore_json_skip(&gltf->json, 1);
   return count;
 }
 
 static void find_sections(Gltf *gltf) {
   gsize count = 0;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
     for (int s = 0; s < SECTIONS; s++) {
       if (!is_key(gltf, key, section_names[s])) continue;
       if (gltf->sections[s])
         fail(gltf, _("the glTF text has %s twice; expected them once; export the mesh again"), section_names[s]);
       gltf->sections[s] = gltf->json.at;
     }
-    skip_value(&gltf->json, 0);
+    spore_json_skip(&gltf->json, 0);
   }
 }
 
@@ -182,12 +114,12 @@ static void read_view(Gltf *gltf, gsize index) {
   } members[] = {{"byteOffset", 0, G_MAXUINT32}, {"byteLength", 1, G_MAXUINT32}, {"byteStride", 4, 252}};
   gsize count = 0;
   guint64 value;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
     gsize m = 0;
     while (m < G_N_ELEMENTS(members) && !is_key(gltf, key, members[m].name)) m++;
-    if (m == G_N_ELEMENTS(members)) skip_value(&gltf->json, 2);
+    if (m == G_N_ELEMENTS(members)) spore_json_skip(&gltf->json, 2);
     else read_whole(gltf, VIEWS, index, members[m].name, members[m].least, members[m].most, &value);
   }
 }
@@ -195,24 +127,24 @@ static void read_view(Gltf *gltf, gsize index) {
 static void read_accessor(Gltf *gltf, gsize index) {
   gsize count = 0;
   guint64 offset, elements = 0;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
     if (is_key(gltf, key, "byteOffset")) read_whole(gltf, ACCESSORS, index, "byteOffset", 0, G_MAXUINT32, &offset);
     else if (is_key(gltf, key, "count")) {
       read_whole(gltf, ACCESSORS, index, "count", 1, 3 * (guint64)SPORE_MESH_MAXIMUM, &elements);
       gltf->elements[index] = MAX(gltf->elements[index], elements); /* which of two the importer takes is not known */
-    } else skip_value(&gltf->json, 2);
+    } else spore_json_skip(&gltf->json, 2);
   }
 }
 
 static void read_attributes(Gltf *gltf, gsize mesh) {
   gsize count = 0;
   guint64 accessor;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
-    if (!is_key(gltf, key, "POSITION")) skip_value(&gltf->json, 5);
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
+    if (!is_key(gltf, key, "POSITION")) spore_json_skip(&gltf->json, 5);
     else if (read_index(gltf, MESHES, mesh, "POSITION", ACCESSORS, &accessor))
       gltf->vertices[mesh] += gltf->elements[accessor];
   }
@@ -221,11 +153,11 @@ static void read_attributes(Gltf *gltf, gsize mesh) {
 static void read_primitive(Gltf *gltf, gsize mesh) {
   gsize count = 0;
   guint64 accessor;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
     if (is_key(gltf, key, "attributes")) read_attributes(gltf, mesh);
-    else if (!is_key(gltf, key, "indices")) skip_value(&gltf->json, 4);
+    else if (!is_key(gltf, key, "indices")) spore_json_skip(&gltf->json, 4);
     else if (read_index(gltf, MESHES, mesh, "indices", ACCESSORS, &accessor))
       gltf->corners[mesh] += gltf->elements[accessor];
   }
@@ -233,21 +165,21 @@ static void read_primitive(Gltf *gltf, gsize mesh) {
 
 static void read_mesh(Gltf *gltf, gsize index) {
   gsize count = 0, primitives = 0;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
-    if (!is_key(gltf, key, "primitives")) skip_value(&gltf->json, 2);
-    else if (!take(&gltf->json, '[')) fail_json(&gltf->json);
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
+    if (!is_key(gltf, key, "primitives")) spore_json_skip(&gltf->json, 2);
+    else if (!spore_json_take(&gltf->json, '[')) spore_json_fail(&gltf->json);
     else
-      while (next_item(&gltf->json, ']', &primitives)) read_primitive(gltf, index);
+      while (spore_json_next_item(&gltf->json, ']', &primitives)) read_primitive(gltf, index);
   }
 }
 
 static void read_children(Gltf *gltf, gsize index) {
   gsize count = 0;
   guint64 child;
-  if (!take(&gltf->json, '[')) fail_json(&gltf->json);
-  while (next_item(&gltf->json, ']', &count)) {
+  if (!spore_json_take(&gltf->json, '[')) spore_json_fail(&gltf->json);
+  while (spore_json_next_item(&gltf->json, ']', &count)) {
     if (!read_index(gltf, NODES, index, "children", NODES, &child)) return;
     if (gltf->parents[child] != NONE)
       fail(gltf,
@@ -261,11 +193,11 @@ static void read_children(Gltf *gltf, gsize index) {
 static void read_node(Gltf *gltf, gsize index) {
   gsize count = 0, total = gltf->counts[MESHES];
   guint64 mesh;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key)) {
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key)) {
     if (is_key(gltf, key, "children")) read_children(gltf, index);
-    else if (!is_key(gltf, key, "mesh")) skip_value(&gltf->json, 2);
+    else if (!is_key(gltf, key, "mesh")) spore_json_skip(&gltf->json, 2);
     else if (read_index(gltf, NODES, index, "mesh", MESHES, &mesh)) {
       gltf->vertices[total] += gltf->vertices[mesh];
       gltf->corners[total] += gltf->corners[mesh];
@@ -276,8 +208,8 @@ static void read_node(Gltf *gltf, gsize index) {
 static void read_roots(Gltf *gltf, gsize scene) {
   gsize count = 0;
   guint64 node;
-  if (!take(&gltf->json, '[')) fail_json(&gltf->json);
-  while (next_item(&gltf->json, ']', &count)) {
+  if (!spore_json_take(&gltf->json, '[')) spore_json_fail(&gltf->json);
+  while (spore_json_next_item(&gltf->json, ']', &count)) {
     if (!read_index(gltf, SCENES, scene, "nodes", NODES, &node)) return;
     if (gltf->parents[node] != NONE || gltf->roots[node] == scene + 1)
       fail(gltf, _("node %llu of the glTF text is in its scene twice; expected a tree; export the mesh again"),
@@ -288,11 +220,11 @@ static void read_roots(Gltf *gltf, gsize scene) {
 
 static void read_scene(Gltf *gltf, gsize index) {
   gsize count = 0;
-  Key key;
-  if (!take(&gltf->json, '{')) fail_json(&gltf->json);
-  while (next_member(&gltf->json, &count, &key))
+  SporeJsonText key;
+  if (!spore_json_take(&gltf->json, '{')) spore_json_fail(&gltf->json);
+  while (spore_json_next_member(&gltf->json, &count, &key))
     if (is_key(gltf, key, "nodes")) read_roots(gltf, index);
-    else skip_value(&gltf->json, 2);
+    else spore_json_skip(&gltf->json, 2);
 }
 
 /* The whole. */

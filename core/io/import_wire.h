@@ -15,7 +15,10 @@ typedef struct SporeImportRequest {
 /* A sub-mesh: its number of triangles. The triangles of the parts follow each other. */
 typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
-  char name[64];           /* name of its node, cut to fit; empty: it has none */
+  float colour[3];         /* the base colour of its material, sRGB from 0 to 1; used where coloured */
+  uint32_t coloured;       /* the file says the colour */
+  char name[64];           /* name of its node or mesh, cut to fit; empty: it has none */
+  char group[192];         /* names of the nodes that it lies in, outermost first, between slashes; may be empty */
 } SporeImportPart;
 
 /* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */

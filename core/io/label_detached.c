@@ -1,64 +1,19 @@
 /* Joins a label map's header with the separate file of its voxels, since the readers take one file. */
-#include <errno.h>
-#include <fcntl.h>
-#include <glib/gi18n.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "core/io/beside.h"
 #include "core/io/label_map.h"
 
-#define MOST_BYTES ((off_t)1 << 30)
+#define MOST_BYTES ((gsize)1 << 30)
 #define MOST_HEADER ((gsize)1 << 20)
 #define NIFTI_HEADER 348
 #define NIFTI_MAGIC 344
 #define NIFTI_START 108 /* of its vox_offset, a float */
 #define NIFTI_DATA 352
 
-/* The header followed by the bytes of the file; NULL: it is no regular file, or cannot be read whole. */
-static GBytes *join(const void *header, gsize size, int file) {
-  struct stat info;
-  gsize have = 0;
-  gssize got = 1;
-  if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size > MOST_BYTES) return NULL;
-  const gsize wanted = (gsize)info.st_size;
-  char *whole = g_try_malloc(size + wanted + 1);
-  if (!whole) return NULL;
-  memcpy(whole, header, size);
-  while (have < wanted && got > 0)
-    if ((got = read(file, whole + size + have, wanted - have)) > 0) have += (gsize)got;
-  if (got >= 0) return g_bytes_new_take(whole, size + have);
-  g_free(whole);
-  return NULL;
-}
-
-/* Joins the header with the voxels of the file `name`, which lies in the same folder. */
+/* Joins the header with the voxels of the file `name`. A list of files is none. */
 static GBytes *join_beside(const char *file, const char *name, const void *header, gsize size, GError **error) {
-  if (!*name || strpbrk(name, "/\\") || g_str_equal(name, "..") || g_str_has_prefix(name, "LIST")) {
-    spore_error_raise(error, SPORE_ERROR_INPUT, file,
-                      _("its voxels are said to be in \"%s\"; expected the name of one file in the same folder; put it "
-                        "there, or save header and data together"),
-                      name);
-    return NULL;
-  }
-  g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL);
-  /* Follows no link out of the folder, and waits for no pipe. */
-  int voxels = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
-  int reason = errno;
-  GBytes *whole = voxels >= 0 ? join(header, size, voxels) : NULL;
-  if (voxels >= 0) close(voxels);
-  if (!whole && voxels < 0 && reason == ENOENT)
-    spore_error_raise(error, SPORE_ERROR_FILE, file,
-                      _("its voxels' file \"%s\" is not there; expected it in the same folder; copy both files"), name);
-  else if (!whole && voxels < 0 && reason != ELOOP && reason != ENXIO)
-    spore_error_raise(error, SPORE_ERROR_FILE, file, _("its voxels' file \"%s\" cannot be read (%s); check it"), name,
-                      g_strerror(reason));
-  else if (!whole)
-    spore_error_raise(error, SPORE_ERROR_FILE, file,
-                      _("its voxels' file \"%s\" is no regular file, or has over 1 GiB; expected a smaller one in the "
-                        "same folder; copy it there, or crop it"),
-                      name);
-  return whole;
+  return spore_beside_read(file, g_str_has_prefix(name, "LIST") ? "" : name, header, size, MOST_BYTES, error);
 }
 
 /* The value of a line "data file: NAME"; NULL: it is another line. */

@@ -8,6 +8,7 @@
 #include "core/io/helper.h"
 #include "core/io/import_wire.h"
 #include "core/io/mesh_format.h"
+#include "core/io/mesh_text.h"
 #include "core/io/off.h"
 #include "core/mesh/edit.h"
 
@@ -47,14 +48,14 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
 /* The mesh as in the file: its triangles, and the part that each belongs to. */
 typedef struct Raw {
   SporeTriangleMesh mesh;
-  guint32 *part;    /* triangle_count; NULL: one part without a name */
-  GPtrArray *names; /* char *, of the parts */
+  guint32 *part; /* triangle_count; NULL: one part without a name */
+  GArray *parts; /* of SporeImportPart; NULL as well */
 } Raw;
 
 static void clear_raw(Raw *raw) {
   spore_triangle_mesh_clear(&raw->mesh);
   g_clear_pointer(&raw->part, g_free);
-  g_clear_pointer(&raw->names, g_ptr_array_unref);
+  g_clear_pointer(&raw->parts, g_array_unref);
 }
 
 static gboolean fail_memory(const char *place, GError **error) {
@@ -71,13 +72,13 @@ static gboolean fail_answer(const char *place, GError **error) {
 /* The triangles of the parts must add up to the triangles that were sent. */
 static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw *raw) {
   gsize triangle = 0;
-  raw->names = g_ptr_array_new_with_free_func(g_free);
+  raw->parts = g_array_new(FALSE, FALSE, sizeof(SporeImportPart));
   for (guint64 p = 0; p < head->part_count; p++) {
     SporeImportPart part;
     memcpy(&part, bytes + p * sizeof part, sizeof part);
     if (part.triangle_count > head->triangle_count - triangle) return FALSE;
-    part.name[sizeof part.name - 1] = '\0';
-    g_ptr_array_add(raw->names, g_utf8_make_valid(part.name, -1));
+    part.name[sizeof part.name - 1] = part.group[sizeof part.group - 1] = '\0';
+    g_array_append_val(raw->parts, part);
     for (guint64 t = 0; t < part.triangle_count; t++) raw->part[triangle++] = (guint32)p;
   }
   return triangle == head->triangle_count;
@@ -163,15 +164,24 @@ gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **er
   return spore_error_propagate(&failure, error);
 }
 
+/* Decodes a mesh whose text is in its plain form. */
+static gboolean decode_plain(const char *place, const char *file, const void *content, gsize size, Raw *raw,
+                             const SporeProgress *progress, GError **error) {
+  SporeMeshFormat format;
+  if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
+  size = spore_mesh_format_extent(format, content, size);
+  return format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, &raw->mesh, error)
+                                  : decode_in_helper(place, format, content, size, raw, progress, error);
+}
+
 /* Decodes a mesh, in metres and in SPORE's axes. */
 static gboolean decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                        Raw *raw, const SporeProgress *progress, GError **error) {
   g_assert(unit >= 0 && spore_length_units[unit] && frame >= 0 && frame < 3);
-  SporeMeshFormat format;
-  if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
-  size = spore_mesh_format_extent(format, content, size);
-  gboolean done = format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, &raw->mesh, error)
-                                           : decode_in_helper(place, format, content, size, raw, progress, error);
+  const char *text = content;
+  g_autofree char *held = NULL;
+  if (!spore_mesh_text(&text, &size, &held)) return fail_memory(place, error);
+  gboolean done = decode_plain(place, file, text, size, raw, progress, error);
   if (done) apply_unit_and_frame(&raw->mesh, unit, frame);
   return done;
 }
@@ -190,16 +200,38 @@ gboolean spore_mesh_decode(const char *place, const char *file, const void *cont
 
 void spore_mesh_part_free(SporeMeshPart *part) {
   g_free(part->name);
+  g_free(part->group);
   spore_triangle_mesh_clear(&part->mesh);
   g_free(part);
+}
+
+/* What the file says of that part; of the largest where it says nothing of the number. NULL: it says nothing. */
+static const SporeImportPart *said_of(const Raw *raw, gboolean apart, guint32 number) {
+  const SporeImportPart *said = NULL;
+  for (guint p = 0; raw->parts && p < raw->parts->len; p++) {
+    const SporeImportPart *one = &g_array_index(raw->parts, SporeImportPart, p);
+    if (apart ? p == number : !said || one->triangle_count > said->triangle_count) said = one;
+  }
+  return said;
+}
+
+/* The helper is not trusted: a colour that is none is left out. */
+static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
+  part->coloured = said && said->coloured;
+  for (int k = 0; k < 3 && said; k++) {
+    part->colour[k] = said->colour[k];
+    if (!(said->colour[k] >= 0 && said->colour[k] <= 1)) part->coloured = false;
+  }
 }
 
 /* The part of that number; `pieces` NULL: the whole mesh. NULL with an error. */
 static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
   SporeMeshPart *part = g_new0(SporeMeshPart, 1);
   SporeError failure = SPORE_ERROR_INIT;
-  const char *name = raw->names && number < raw->names->len ? g_ptr_array_index(raw->names, number) : "";
-  part->name = g_strdup(pieces ? name : "");
+  const SporeImportPart *said = said_of(raw, pieces != NULL, number);
+  part->name = g_utf8_make_valid(said && pieces ? said->name : "", -1);
+  part->group = g_utf8_make_valid(said && pieces ? said->group : "", -1);
+  take_colour(said, part);
   g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
   gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* validated before its indices are used */
   if (done && pieces) done = spore_triangle_mesh_extract(&raw->mesh, pieces, number, &part->mesh, &failure);
@@ -218,7 +250,7 @@ GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize 
   Raw raw = {0};
   g_autoptr(GPtrArray) parts = g_ptr_array_new_with_free_func((GDestroyNotify)spore_mesh_part_free);
   gboolean done = decode(file, file, content, size, unit, frame, &raw, progress, error);
-  *count = raw.names ? raw.names->len : 1;
+  *count = raw.parts ? raw.parts->len : 1;
   gboolean several = apart && *count > 1;
   if (done && *count > SPORE_MESH_PARTS_MAXIMUM && several)
     done = spore_error_raise(error, SPORE_ERROR_INPUT, file,

@@ -23,9 +23,16 @@ extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
 
+/* The content with the buffers that a glTF text names put into it: regular files in the same folder, of at most 1 GiB
+ * together. Other content is returned as it is. g_bytes_unref; NULL with an error. */
+GBytes *spore_mesh_whole(const char *file, GBytes *content, GError **error);
+
 /* A sub-mesh of a file: the meshes of one node of glTF or of one object of OBJ. */
 typedef struct SporeMeshPart {
-  char *name; /* "": it has none */
+  char *name;       /* "": it has none */
+  char *group;      /* names of the nodes that it lies in, outermost first, between slashes; "": there are none */
+  double colour[3]; /* base colour of its material, sRGB from 0 to 1; of joined parts: of the largest */
+  bool coloured;    /* the file says the colour */
   SporeTriangleMesh mesh;
 } SporeMeshPart;
 void spore_mesh_part_free(SporeMeshPart *part);

@@ -298,6 +298,27 @@ def import_names_the_parts_of_a_file():
 
 
 @check
+def import_takes_gltf_with_its_buffer_beside_it():
+    """The buffer's file is read from the same folder, and the scene needs it no more; the body is as yellow as in the file."""
+    if "assimp" not in FEATURES:
+        raise Skip("built without assimp")
+    packed = shapes.glb(spleen=shapes.sphere())
+    length = int.from_bytes(packed[12:16], "little")
+    text = json.loads(packed[20:20 + length])
+    text["buffers"][0]["uri"] = "spleen.bin"
+    text["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 0, 1]}}]
+    text["meshes"][0]["primitives"][0]["material"] = 0
+    file("beside/spleen.gltf", json.dumps(text))
+    file("beside/spleen.bin", packed[28 + length:])
+    answer = report("import", "beside/spleen.gltf", "-o", "yellow/spleen.spore")
+    assert answer["meshes"][0]["colour"] == [1, 1, 0] and 'colour="1 1 0"' in (WORK / "yellow/spleen.spore").read_text()
+    (WORK / "beside/spleen.bin").unlink()
+    assert not [d for d in report("check", "yellow/spleen.spore")["diagnostics"] if d["severity"] == "error"]
+    refuses("import", "beside/spleen.gltf", "-o", "yellow/none.spore", says=["spleen.bin", "same folder"])
+    refuses("surface", "beside/spleen.gltf", "--nodes", 100, says=["spleen.bin", "same folder"])
+
+
+@check
 def import_mends_meshes():
     """Operations with figures before and after: a hole is filled, smoothing keeps the volume, each says how far it moved."""
     vertices, triangles = shapes.sphere()

@@ -101,7 +101,7 @@ GByteArray *file_ply(const SporeTriangleMesh *mesh) {
 }
 
 /* Positions, then indices. */
-static GByteArray *gltf_buffer(const SporeTriangleMesh *mesh) {
+GByteArray *file_gltf_buffer(const SporeTriangleMesh *mesh) {
   GByteArray *buffer = g_byte_array_new();
   for (gsize i = 0; i < 3 * mesh->vertex_count; i++) add_f32(buffer, mesh->vertices[i]);
   for (gsize i = 0; i < 3 * mesh->triangle_count; i++) add_u32(buffer, mesh->triangles[i]);
@@ -126,7 +126,7 @@ static char *gltf_text(const SporeTriangleMesh *mesh, const char *uri) {
 }
 
 GByteArray *file_gltf(const SporeTriangleMesh *mesh, const char *uri) {
-  GByteArray *buffer = gltf_buffer(mesh), *file = g_byte_array_new();
+  GByteArray *buffer = file_gltf_buffer(mesh), *file = g_byte_array_new();
   char *coded = g_base64_encode(buffer->data, buffer->len);
   char *embedded = g_strconcat("data:application/octet-stream;base64,", coded, NULL);
   char *text = gltf_text(mesh, uri ? uri : embedded);
@@ -139,7 +139,7 @@ GByteArray *file_gltf(const SporeTriangleMesh *mesh, const char *uri) {
 }
 
 GByteArray *file_glb(const SporeTriangleMesh *mesh) {
-  GByteArray *buffer = gltf_buffer(mesh), *file = g_byte_array_new();
+  GByteArray *buffer = file_gltf_buffer(mesh), *file = g_byte_array_new();
   char *text = gltf_text(mesh, NULL);
   guint32 length = (guint32)strlen(text), padding = (4 - length % 4) % 4;
   add(file, "glTF", 4);

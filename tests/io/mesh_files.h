@@ -15,6 +15,8 @@ GByteArray *file_ply(const SporeTriangleMesh *mesh);
 
 /* glTF 2.0 whose one node stretches by 2 along x, then moves by (1, 2, 3). uri: of the buffer; NULL embeds it. */
 GByteArray *file_gltf(const SporeTriangleMesh *mesh, const char *uri);
+/* The content of that buffer. */
+GByteArray *file_gltf_buffer(const SporeTriangleMesh *mesh);
 GByteArray *file_glb(const SporeTriangleMesh *mesh);
 
 #endif

@@ -1,0 +1,57 @@
+/* Reads a file in the same folder, and nothing outside that folder. */
+#include "core/io/beside.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <glib/gi18n.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The head followed by the bytes of the file; NULL: it is no regular file, or cannot be read whole. */
+static GBytes *join(const void *head, gsize size, int file, gsize most) {
+  struct stat info;
+  gsize have = 0;
+  gssize got = 1;
+  if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < 0 || (guint64)info.st_size > most)
+    return NULL;
+  const gsize wanted = (gsize)info.st_size;
+  char *whole = g_try_malloc(size + wanted + 1);
+  if (!whole) return NULL;
+  if (size) memcpy(whole, head, size);
+  while (have < wanted && got > 0)
+    if ((got = read(file, whole + size + have, wanted - have)) > 0) have += (gsize)got;
+  if (got >= 0) return g_bytes_new_take(whole, size + have);
+  g_free(whole);
+  return NULL;
+}
+
+GBytes *spore_beside_read(const char *file, const char *name, const void *head, gsize size, gsize most,
+                          GError **error) {
+  if (!*name || strpbrk(name, "/\\") || g_str_equal(name, ".") || g_str_equal(name, "..")) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                      _("a part of it is said to be in \"%s\"; expected the name of one file in the same folder; put "
+                        "it there, or save all in one file"),
+                      name);
+    return NULL;
+  }
+  g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL);
+  /* Follows no link out of the folder, and waits for no pipe. */
+  int part = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
+  int reason = errno;
+  GBytes *whole = part >= 0 ? join(head, size, part, most) : NULL;
+  if (part >= 0) close(part);
+  if (whole) return whole;
+  if (part < 0 && reason == ENOENT)
+    spore_error_raise(error, SPORE_ERROR_FILE, file,
+                      _("its other file \"%s\" is not there; expected it in the same folder; copy both files"), name);
+  else if (part < 0 && reason != ELOOP && reason != ENXIO)
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("its other file \"%s\" cannot be read (%s); check it"), name,
+                      g_strerror(reason));
+  else
+    spore_error_raise(error, SPORE_ERROR_FILE, file,
+                      _("its other file \"%s\" is no regular file, or has over %zu bytes; expected a smaller one in "
+                        "the same folder; copy it there, or make it smaller"),
+                      name, most);
+  return NULL;
+}
