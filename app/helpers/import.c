@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "app/helpers/import_assimp.h"
+#include "app/helpers/vtk.h"
 #include "core/io/helper.h"
 #include "core/io/import_wire.h"
 #include "core/io/mesh_format.h"
@@ -14,6 +15,25 @@ static const char *const extensions[SPORE_MESH_FORMAT_COUNT] = {[SPORE_MESH_STL]
                                                                 [SPORE_MESH_GLTF] = "gltf",
                                                                 [SPORE_MESH_GLB] = "glb"};
 
+#if SPORE_HAVE_ASSIMP
+#define BY_ASSIMP spore_import_assimp
+#else
+#define BY_ASSIMP refuse
+/* SPORE does not ask for these formats where they are not in the build. */
+static bool refuse(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
+                   SporeHelperFailure *failure) {
+  _exit(1);
+}
+#endif
+
+static bool decode(uint64_t format, const char *content, size_t size, void **answer, size_t *answer_size,
+                   SporeHelperFailure *failure) {
+  if (format == SPORE_MESH_VTK) return spore_vtk_legacy(content, size, answer, answer_size, failure);
+  if (format == SPORE_MESH_VTP) return spore_vtk_xml(content, size, answer, answer_size, failure);
+  if (format >= SPORE_MESH_FORMAT_COUNT || !extensions[format]) _exit(1);
+  return BY_ASSIMP(extensions[format], content, size, answer, answer_size, failure);
+}
+
 int main(int argc, char **argv) {
   spore_helper_start(argc, argv);
   void *request, *answer;
@@ -21,10 +41,8 @@ int main(int argc, char **argv) {
   SporeImportRequest head;
   if (!spore_helper_read_request(&request, &size) || size < sizeof head) _exit(1);
   memcpy(&head, request, sizeof head);
-  if (head.format >= SPORE_MESH_FORMAT_COUNT || !extensions[head.format]) _exit(1);
   SporeHelperFailure failure;
-  if (spore_import_assimp(extensions[head.format], (const char *)request + sizeof head, size - sizeof head, &answer,
-                          &answer_size, &failure))
+  if (decode(head.format, (const char *)request + sizeof head, size - sizeof head, &answer, &answer_size, &failure))
     spore_helper_send_answer(answer, answer_size);
   else spore_helper_send_error(failure.code, failure.message, failure.detail);
   _exit(0);

@@ -50,8 +50,4 @@ bool spore_inflate(const uint8_t *bytes, size_t size, size_t most, uint8_t **res
 /* Checks that counts are above 0 and within bounds, and that axes are finite and span a space. */
 bool spore_volume_head_check(const SporeVolumeHead *head, SporeHelperFailure *failure);
 
-/* Fills the failure and returns false. detail: a format, may be "". */
-bool spore_volume_fail(SporeHelperFailure *failure, const char *message, const char *detail, ...)
-    __attribute__((format(printf, 3, 4)));
-
 #endif

@@ -24,7 +24,7 @@ static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t 
   for (int state = Z_OK; state != Z_STREAM_END;) {
     if (*filled == room) {
       if (room >= most)
-        return spore_volume_fail(failure,
+        return spore_helper_fail(failure,
                                  N_("there are more voxels than its header says, or than can be taken; expected "
                                     "as many; save it again"),
                                  "over %zu bytes", most);
@@ -40,7 +40,7 @@ static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t 
     state = inflate(stream, Z_NO_FLUSH);
     *filled += step - stream->avail_out;
     if (state != Z_OK && state != Z_STREAM_END)
-      return spore_volume_fail(failure,
+      return spore_helper_fail(failure,
                                N_("its compressed data are cut short or damaged; expected a whole gzip stream; "
                                   "copy or save it again"),
                                "%s", stream->msg ? stream->msg : "");
@@ -95,7 +95,7 @@ static bool fill_labels(const SporeVolumeHead *head, const uint8_t *data, size_t
   for (size_t i = 0; i < voxels; i++) {
     double value = head->slope * voxel(head, data + i * spore_voxel_bytes[head->type]) + head->shift;
     if (!(value >= 0 && value <= LARGEST_LABEL) || value != floor(value))
-      return spore_volume_fail(failure,
+      return spore_helper_fail(failure,
                                N_("it holds a value that is no label; expected whole numbers from 0 to 65535; "
                                   "is it a picture and not a segmentation?"),
                                "%g in voxel %zu", value, i);
@@ -110,7 +110,7 @@ static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t
   size_t voxels = (size_t)(head->answer.size[0] * head->answer.size[1] * head->answer.size[2]);
   size_t bytes = spore_voxel_bytes[head->type];
   if (size < voxels * bytes)
-    return spore_volume_fail(failure,
+    return spore_helper_fail(failure,
                              N_("the volume is cut short; expected as many voxels as its header says; copy or "
                                 "save it again"),
                              "%zu of %zu bytes", size, voxels * bytes);

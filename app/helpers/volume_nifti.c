@@ -61,7 +61,7 @@ static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFai
       *type = known[i].type;
       return true;
     }
-  return spore_volume_fail(failure,
+  return spore_helper_fail(failure,
                            N_("its voxels are of a kind that holds no labels; expected integers or real numbers; save "
                               "it as a label map"),
                            "datatype %d", code);
@@ -73,7 +73,7 @@ static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure
   for (int i = 0; i < 7; i++) {
     int64_t length = i < dimensions ? take_count(header, 42 + 2 * (size_t)i, 24 + 8 * (size_t)i) : 1;
     if (dimensions < 1 || dimensions > 7 || length < 1 || (i >= 3 && length > 1))
-      return spore_volume_fail(failure,
+      return spore_helper_fail(failure,
                                N_("its dimensions are not those of a volume; expected three of at least one "
                                   "voxel; save one volume of it"),
                                "dim[%d] = %lld", i < dimensions ? i + 1 : 0,
@@ -120,12 +120,12 @@ bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, 
   if (size >= 8) header.second = memcmp(bytes + 4, "n+2", 4) == 0;
   const int32_t whole = header.second ? HEADER_2 : HEADER_1;
   if (!header.second && size >= HEADER_1 && memcmp(bytes + 344, "n+1", 4) != 0)
-    return spore_volume_fail(failure,
+    return spore_helper_fail(failure,
                              N_("it is no NIfTI-1 or NIfTI-2 volume in one file; expected .nii or .nii.gz with header "
                                 "and data together; save it so"),
                              "%s", "");
   if (size < (size_t)whole + 4)
-    return spore_volume_fail(failure, N_("the NIfTI file is cut short; expected the whole file; copy it again"),
+    return spore_helper_fail(failure, N_("the NIfTI file is cut short; expected the whole file; copy it again"),
                              "%zu bytes", size);
   int32_t length;
   take(&header, 0, &length, sizeof length);
@@ -140,7 +140,7 @@ bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, 
   if (header.second) take(&header, 168, &start, sizeof start);
   double offset = header.second ? (double)start : take_real(&header, 108, 0, 0);
   if (!(offset >= whole && offset <= (double)size))
-    return spore_volume_fail(failure,
+    return spore_helper_fail(failure,
                              N_("its voxels would begin outside the file; expected them behind the header; "
                                 "save it again"),
                              "vox_offset %g of %zu bytes", offset, size);

@@ -20,7 +20,7 @@ typedef struct Fields {
 } Fields;
 
 static bool fail_field(SporeHelperFailure *failure, const char *line) {
-  return spore_volume_fail(failure,
+  return spore_helper_fail(failure,
                            N_("its header says what cannot be read or cannot be; expected the fields of one "
                               "volume of labels; save it again"),
                            "%.200s", line);
@@ -169,7 +169,7 @@ bool spore_nrrd_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, S
   while (next_line(bytes, size, &at, line) && *line)
     if (!read_line(line, &fields, head, failure)) return false;
   if (*line)
-    return spore_volume_fail(failure, N_("the NRRD file is cut short; expected the whole file; copy it again"), "%s",
+    return spore_helper_fail(failure, N_("the NRRD file is cut short; expected the whole file; copy it again"), "%s",
                              "");
   bool wide = head->type < SPORE_VOXEL_TYPES && spore_voxel_bytes[head->type] > 1;
   if (head->type == SPORE_VOXEL_TYPES || !fields.sized || !fields.dimension || !fields.encoded ||

@@ -8,7 +8,8 @@
 #include "core/io/off.h"
 #include "core/io/ply_check.h"
 
-const char *const spore_mesh_format_names[SPORE_MESH_FORMAT_COUNT] = {"STL", "OBJ", "PLY", "OFF", "glTF", "GLB"};
+const char *const spore_mesh_format_names[SPORE_MESH_FORMAT_COUNT] = {"STL",  "OBJ", "PLY", "OFF",
+                                                                      "glTF", "GLB", "VTK", "VTP"};
 
 #define STL_HEADER 84
 #define STL_FACET 50
@@ -71,10 +72,15 @@ static gboolean is_obj(const Content *content) {
   return FALSE;
 }
 
-static gboolean is_gltf(const Content *content) {
+/* Whether the text begins with that character, after white space. */
+static gboolean is_text_head(const Content *content, char head) {
   gsize start = 0;
   while (start < content->size && g_ascii_isspace(content->bytes[start])) start++;
-  return start < content->size && content->bytes[start] == '{' && has_within(content, content->size, "\"asset\"");
+  return start < content->size && content->bytes[start] == head;
+}
+
+static gboolean is_gltf(const Content *content) {
+  return is_text_head(content, '{') && has_within(content, content->size, "\"asset\"");
 }
 
 static gboolean fail_short(const Content *content, const char *format, guint64 said, GError **error) {
@@ -127,10 +133,10 @@ static gboolean fail_unknown(const Content *content, GError **error) {
   }
   return spore_error_raise(error, SPORE_ERROR_INPUT, content->place,
                            is_text(content)
-                               ? _("this is text, but no mesh; expected STL, OBJ, PLY, OFF, glTF or GLB; "
+                               ? _("this is text, but no mesh; expected STL, OBJ, PLY, OFF, glTF, GLB or VTK; "
                                    "export the mesh again in one of these, the name alone does not matter")
-                               : _("this is no mesh that SPORE knows; expected STL, OBJ, PLY, OFF, glTF or "
-                                   "GLB; export the mesh again in one of these"));
+                               : _("this is no mesh that SPORE knows; expected STL, OBJ, PLY, OFF, glTF, "
+                                   "GLB or VTK; export the mesh again in one of these"));
 }
 
 gboolean spore_mesh_format_find(const char *place, const char *file, const void *bytes, gsize size,
@@ -155,7 +161,9 @@ gboolean spore_mesh_format_find(const char *place, const char *file, const void 
     *format = SPORE_MESH_GLTF;
     return spore_gltf_check(content.place, content.bytes, size, error);
   }
-  if (spore_off_is(content.bytes, size)) *format = SPORE_MESH_OFF;
+  if (begins(&content, "# vtk DataFile")) *format = SPORE_MESH_VTK;
+  else if (is_text_head(&content, '<') && has_within(&content, 4096, "<VTKFile")) *format = SPORE_MESH_VTP;
+  else if (spore_off_is(content.bytes, size)) *format = SPORE_MESH_OFF;
   else if (is_obj(&content)) *format = SPORE_MESH_OBJ;
   else return fail_unknown(&content, error);
   return TRUE;

@@ -13,6 +13,8 @@ typedef enum SporeMeshFormat {
   SPORE_MESH_OFF,
   SPORE_MESH_GLTF,
   SPORE_MESH_GLB,
+  SPORE_MESH_VTK,
+  SPORE_MESH_VTP, /* the XML format of VTK */
   SPORE_MESH_FORMAT_COUNT
 } SporeMeshFormat;
 

@@ -117,10 +117,10 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
 
 static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size, Raw *raw,
                                  const SporeProgress *progress, GError **error) {
-  if (!SPORE_HAVE_ASSIMP)
+  if (!SPORE_HAVE_ASSIMP && format != SPORE_MESH_VTK && format != SPORE_MESH_VTP)
     return spore_error_raise(
         error, SPORE_ERROR_UNSUPPORTED, place,
-        _("this is %s, and this build of SPORE reads OFF alone; expected OFF; convert the mesh, or "
+        _("this is %s, and this build of SPORE reads OFF and VTK alone; expected one of these; convert the mesh, or "
           "install libassimp-dev and build SPORE again"),
         spore_mesh_format_names[format]);
   SporeImportRequest head = {format};

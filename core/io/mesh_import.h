@@ -15,11 +15,11 @@
  */
 extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 
-/* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB. The content decides on the format; the extension of `file` only
- * decides where the content does not. OFF is read here. assimp reads the other formats in a helper process that can
- * open no file, reach no network and exceed no time limit. All sub-meshes are joined with their node transforms
- * applied. The mesh is then validated, welded (1e-6), turned outward, and unit and frame are applied. place (usually
- * the path) begins every message. `progress` can cancel. */
+/* Decodes STL, OBJ, PLY, OFF, glTF (embedded), GLB or a surface of VTK. The content decides on the format; the
+ * extension of `file` only decides where the content does not. OFF is read here. A helper process reads the other
+ * formats; the process can open no file, reach no network and exceed no time limit. All sub-meshes are joined with
+ * their node transforms applied. The mesh is then validated, welded (1e-6), turned outward, and unit and frame are
+ * applied. place (usually the path) begins every message. `progress` can cancel. */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
 

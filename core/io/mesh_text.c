@@ -36,7 +36,7 @@ gboolean spore_mesh_text(const char **content, gsize *size, char **held) {
     *held = from_utf16(bytes, *size, big, size);
     *content = *held;
   } else if (*size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) *content += 3, *size -= 3;
-  if (!*content) return FALSE;
+  if ((big || little) && !*held) return FALSE;
   gsize blank = 0;
   while (blank < *size && g_ascii_isspace((*content)[blank])) blank++;
   if (*size - blank >= 4 && memcmp(*content + blank, "ply", 3) == 0) *content += blank, *size -= blank;

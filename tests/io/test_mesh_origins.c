@@ -1,4 +1,4 @@
-/* Meshes as other programs write them: buffers in files of their own, other encodings, blank lines. */
+/* Meshes as other programs write them: buffers in files of their own, other encodings, blank lines, VTK. */
 #include <fcntl.h>
 #include <glib/gstdio.h>
 #include <math.h>
@@ -223,6 +223,68 @@ static void test_tree(void) {
   g_ptr_array_unref(parts);
 }
 
+#define CORPUS SPORE_SOURCE "/tests/fuzz/corpus/vtk/"
+
+/* The same tetrahedron in each form: legacy by lists and by offsets, XML as text, base64, and compressed bytes. */
+static void test_vtk_forms(void) {
+  static const char *const files[] = {"ascii.vtk", "binary.vtk", "ascii.vtp", "base64.vtp", "appended.vtp"};
+  for (gsize i = 0; i < G_N_ELEMENTS(files) - !SPORE_HAVE_ZLIB; i++) {
+    g_autoptr(GError) error = NULL;
+    g_autofree char *path = g_strconcat(CORPUS, files[i], NULL), *content = NULL;
+    gsize size;
+    SporeTriangleMesh mesh;
+    SporeMeshReport report;
+    g_assert_true(g_file_get_contents(path, &content, &size, NULL));
+    gboolean done = spore_mesh_decode(files[i], "mesh", content, size, 0, 0, &mesh, NULL, &error);
+    g_assert_no_error(error);
+    g_assert_true(done && spore_triangle_mesh_report(&mesh, &report, NULL));
+    g_assert_true(report.closed);
+    g_assert_cmpfloat_with_epsilon(report.volume, 1.0 / 6, 1e-12);
+    spore_triangle_mesh_clear(&mesh);
+  }
+}
+
+#define LEGACY "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 6 float\n"
+
+/* Triangles cover an area; strips and polygons with a corner that turns in cover the same area as their outline. */
+static void check_area(const char *text, gsize triangles, double area) {
+  g_autoptr(GError) error = NULL;
+  SporeTriangleMesh mesh;
+  SporeMeshReport report;
+  gboolean done = spore_mesh_decode("a.vtk", "a.vtk", text, strlen(text), 0, 0, &mesh, NULL, &error);
+  g_assert_no_error(error);
+  g_assert_true(done && spore_triangle_mesh_report(&mesh, &report, NULL));
+  g_assert_cmpuint(mesh.triangle_count, ==, triangles);
+  g_assert_cmpfloat_with_epsilon(report.area, area, 1e-9);
+  spore_triangle_mesh_clear(&mesh);
+}
+
+static void test_vtk_faces(void) {
+  check_area(LEGACY "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\nTRIANGLE_STRIPS 1 7\n6 0 1 2 3 4 5\n", 4, 2);
+  check_area(LEGACY "0 0 0 2 0 0 2 2 0 1 2 0 1 1 0 0 1 0\nPOLYGONS 1 7\n6 0 1 2 3 4 5\n", 4, 3);
+  check_area(LEGACY "0 0 0 2 0 0 2 2 0 1 2 0 1 1 0 0 1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 7\n6 4 5 0 1 2 3\n", 4, 3);
+}
+
+static void check_vtk_refused(const char *text, const char *words) {
+  g_autoptr(GError) error = NULL;
+  SporeTriangleMesh mesh;
+  g_assert_false(spore_mesh_decode("a.vtk", "a.vtk", text, strlen(text), 0, 0, &mesh, NULL, &error));
+  g_test_message("%s", error->message);
+  if (!strstr(error->message, words)) g_error("\"%s\" does not say \"%s\"", error->message, words);
+}
+
+static void test_vtk_refused(void) {
+  check_vtk_refused(LEGACY "0 0 0 1 0 0\n", "cut short");
+  check_vtk_refused(LEGACY "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\n", "only points or lines");
+  check_vtk_refused(LEGACY "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\nPOLYGONS 1 4\n3 0 1 6\n", "vertex 6 of 6");
+  check_vtk_refused(LEGACY "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\nPOLYGONS 1 4\n9 0 1 2\n", "POLYGONS");
+  check_vtk_refused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", "STRUCTURED_POINTS");
+  check_vtk_refused("<VTKFile type=\"ImageData\"></VTKFile>", "ImageData");
+  check_vtk_refused("<!DOCTYPE a><VTKFile type=\"PolyData\"></VTKFile>", "<!");
+  check_vtk_refused("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"></VTKFile>",
+                    "vtkLZ4DataCompressor");
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add("/mesh-origins/beside", Folder, NULL, set_up, test_beside, tear_down);
@@ -231,5 +293,8 @@ int main(int argc, char **argv) {
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/encodings", test_encodings);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/blank-lines", test_blank_lines);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/tree", test_tree);
+  g_test_add_func("/mesh-origins/vtk-forms", test_vtk_forms);
+  g_test_add_func("/mesh-origins/vtk-faces", test_vtk_faces);
+  g_test_add_func("/mesh-origins/vtk-refused", test_vtk_refused);
   return g_test_run();
 }

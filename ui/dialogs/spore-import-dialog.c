@@ -202,8 +202,8 @@ static void add_file(SporeImportDialog *self, const char *file) {
 }
 
 static void add_files(GtkButton *button, SporeImportDialog *self) {
-  static const char *const patterns[] = {"*.stl", "*.obj",    "*.ply",  "*.off",  "*.gltf", "*.glb",
-                                         "*.nii", "*.nii.gz", "*.nrrd", "*.nhdr", "*.hdr",  NULL};
+  static const char *const patterns[] = {"*.stl", "*.obj", "*.ply",    "*.off",  "*.gltf", "*.glb", "*.vtk",
+                                         "*.vtp", "*.nii", "*.nii.gz", "*.nrrd", "*.nhdr", "*.hdr", NULL};
   g_autoptr(GtkFileChooserNative) native = gtk_file_chooser_native_new(
       _("Choose meshes"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Add"), _("_Cancel"));
   GtkFileFilter *filter = gtk_file_filter_new(), *all = gtk_file_filter_new();
@@ -228,7 +228,7 @@ static void add_files(GtkButton *button, SporeImportDialog *self) {
 static void clear_files(GtkButton *button, SporeImportDialog *self) {
   g_ptr_array_set_size(self->files, 0);
   g_ptr_array_add(self->files, NULL);
-  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF or GLB; label maps: NIfTI, NRRD"));
+  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF, GLB or VTK; label maps: NIfTI, NRRD"));
   read_soon(self);
 }
 
@@ -317,7 +317,7 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
   spore_ignore_wheel(self->unit);
   spore_ignore_wheel(self->frame);
   spore_ignore_wheel(self->division);
-  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF or GLB; label maps: NIfTI, NRRD"));
+  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF, GLB or VTK; label maps: NIfTI, NRRD"));
 }
 
 GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files) {
