@@ -3,6 +3,7 @@
 
 #include "app/cli/generate.h"
 #include "app/cli/tetrahedra_labels.h"
+#include "app/cli/tetrahedra_list.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/io/mesh_import.h"
@@ -110,9 +111,9 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
                                                                            : spore_cli_fail(error);
 }
 
-/* Meshes a label map. Its file states the unit and the axes. */
+/* Meshes the labels chosen of a map; its file states the unit and the axes. */
 static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
-                           const char *labels, const char *output) {
+                           const GArray *labels, GHashTable *names, const char *output) {
   SporeTetrahedraFields fields;
   spore_parameters_set_initial(&options->table, &fields);
   spore_cli_options_fill(options, &fields);
@@ -120,13 +121,11 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   SporeTetrahedralMesh mesh = {0};
   SporeLabelTetrahedraReport figures = {0};
   gboolean done = spore_cli_label_tetrahedra(cli, file, content, labels, &fields, &mesh, &figures, &error);
-  gsize size = 0, bytes_size;
-  const void *bytes = g_bytes_get_data(content, &bytes_size);
-  g_autoptr(GHashTable) names = spore_label_map_names(bytes, bytes_size);
+  gsize size = 0;
   if (done) spore_cli_report_labels(cli, &mesh, &figures, names);
   if (done && output && spore_cli_is_scene(output)) {
     const SporeLabelBodies organs = {.file = file,
-                                     .content = bytes_size <= SPORE_LABEL_MAP_KEPT ? content : NULL,
+                                     .content = g_bytes_get_size(content) <= SPORE_LABEL_MAP_KEPT ? content : NULL,
                                      .fields = &fields,
                                      .mesh = &mesh,
                                      .use = SPORE_LABELS_LINKED};
@@ -140,9 +139,26 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
+/* Lists the labels of a map, or meshes them. */
+static int use_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
+                      const char *labels, gboolean list, const char *output) {
+  GError *error = NULL;
+  g_autoptr(SporeLabelSurvey) survey = spore_label_survey(file, content, spore_cli_progress(cli), &error);
+  if (!survey) return spore_cli_fail(error);
+  if (list) {
+    spore_cli_report_list(cli, survey);
+    return spore_cli_finish(cli, SPORE_EXIT_DONE);
+  }
+  g_autoptr(GArray) chosen =
+      labels ? spore_label_survey_choose(survey, labels, &error) : g_array_new(FALSE, FALSE, sizeof(guint16));
+  if (!chosen) return spore_cli_fail(error);
+  g_autoptr(GHashTable) names = spore_label_survey_names(survey);
+  return generate_labels(cli, file, content, options, chosen, names, output);
+}
+
 /* Meshes a surface or a label map, whichever the file holds. */
 static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
-                        const char *frame, const char *labels, const char *output) {
+                        const char *frame, const char *labels, gboolean list, const char *output) {
   GError *error = NULL;
   if (output && !(spore_cli_is_scene(output) ? spore_cli_has_room_for_scene : spore_cli_has_room)(output, file, &error))
     return spore_cli_fail(error);
@@ -158,7 +174,8 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
   g_autofree char *foreign = is_map ? spore_cli_options_foreign(options, &spore_generator_labels) : NULL;
   if (foreign)
     return spore_cli_usage(_("spore tetrahedra: %s is for surfaces; %s is a label map; leave it out"), foreign, file);
-  if (is_map) return generate_labels(cli, file, content, options, labels, output);
+  if (is_map) return use_labels(cli, file, content, options, labels, list, output);
+  if (list) return spore_cli_usage(_("spore tetrahedra: --list is for label maps; %s is none; leave it out"), file);
   if (output && spore_cli_is_scene(output))
     return spore_cli_usage(_("-o %s: a scene is made of a label map, and %s is a surface; expected a name ending in "
                              ".vtu, .msh or .mesh; or make a scene by spore import, and give it --body"),
@@ -168,8 +185,9 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
 }
 
 /* Checks the options and prints its own message. scene: the asset holds the values that are not given. */
-static int check(const SporeCliOptions *options, const char *output, gboolean scene) {
-  if (!scene && spore_cli_options_way(options) < 0)
+static int check(const SporeCliOptions *options, const char *output, gboolean scene, gboolean list) {
+  if (list && output) return spore_cli_usage(_("spore tetrahedra: --list writes no file; leave out -o"));
+  if (!scene && !list && spore_cli_options_way(options) < 0)
     return spore_cli_usage(
         _("spore tetrahedra: neither number of cells nor size is given; expected either --cells 1 to "
           "%u or --size in metres above 0; give one of them"),
@@ -204,8 +222,10 @@ static const SporeReportMember members[] = {
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},
     {"shared_faces", N_("of a label map: between two organs")},
-    {"labels", N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
-                  "min_dihedral_deg")},
+    {"labels",
+     N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
+        "min_dihedral_deg; with --list: label, name, named (by the file or a sidecar), voxels, volume_m3, size_m "
+        "(along the map's axes), cut (sides of the volume that it reaches: i- i+ j- j+ k- k+)")},
     {"seams", N_("of a label map, with -o F.spore: between bodies that share faces")},
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};
@@ -215,9 +235,10 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
   if (!scene && body)
     return spore_cli_usage(_("spore tetrahedra: --body is for scenes; expected a file F.spore with it; leave it out"));
   if (scene && others)
-    return spore_cli_usage(_("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
-                             "none of --unit, --frame, --labels and --output with it; leave them out, or give the "
-                             "mesh's file"));
+    return spore_cli_usage(
+        _("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
+          "none of --unit, --frame, --labels, --list and --output with it; leave them out, or give the "
+          "mesh's file"));
   return SPORE_EXIT_DONE;
 }
 
@@ -231,11 +252,16 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
                                         1,
                                         members};
   char *unit = NULL, *frame = NULL, *output = NULL, *labels = NULL, *body = NULL;
+  gboolean list = FALSE;
   const GOptionEntry entries[] = {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
-      {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels, N_("Labels wanted of a label map (default: all above 0)"),
-       "1,2,5"},
+      {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels,
+       N_("Labels wanted of a label map, by number or name (default: all above 0)"), "1,liver,5"},
+      {"list", 0, 0, G_OPTION_ARG_NONE, &list,
+       N_("List the labels of a label map, and mesh nothing: name (in the file's own table, or in a file of its name "
+          "beside it: .json, .txt, .ctbl, .label), volume, size, and whether the edge of the volume may cut it"),
+       NULL},
       SPORE_SCENE_BODY_ENTRY(&body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
        N_("File to write: .vtu, .msh or .mesh; of a label map also F.spore, a new scene with a soft body of each "
@@ -248,11 +274,11 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
       spore_cli_options_parse(&options, cli, &spore_generator_tetrahedra,
                               "n=cells s=size t=tolerance c=curvature m=method g=gap", &info, entries, &argc, &argv);
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
-  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || labels || output);
-  if (status == SPORE_EXIT_DONE) status = check(&options, output, scene);
+  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || labels || list || output);
+  if (status == SPORE_EXIT_DONE) status = check(&options, output, scene, list);
   if (status == SPORE_EXIT_DONE)
     status = scene ? generate_in(cli, argv[1], body, &options)
-                   : generate_any(cli, argv[1], &options, unit, frame, labels, output);
+                   : generate_any(cli, argv[1], &options, unit, frame, labels, list, output);
   g_free(body);
   g_free(unit);
   g_free(frame);

@@ -6,37 +6,17 @@
 #include "app/cli/scene.h"
 #include "core/io/scene_xml.h"
 
-/* "1,2,5"; NULL with an error. GArray of guint16. */
-static GArray *read_labels(const char *text, GError **error) {
-  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint16));
-  g_auto(GStrv) words = g_strsplit(text ? text : "", ",", -1);
-  for (char **word = words; text && *word; word++) {
-    guint64 value = 0;
-    if (!g_ascii_string_to_unsigned(g_strstrip(*word), 10, 1, 65535, &value, NULL)) {
-      spore_error_raise(error, SPORE_ERROR_INPUT, "--labels",
-                        _("'%s' is no label; expected whole numbers from 1 to 65535 with commas; give those of the "
-                          "organs wanted"),
-                        *word);
-      return NULL;
-    }
-    guint16 label = (guint16)value;
-    g_array_append_val(labels, label);
-  }
-  return g_steal_pointer(&labels);
-}
-
-gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels,
+gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const GArray *labels,
                                     const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
                                     SporeLabelTetrahedraReport *report, GError **error) {
-  g_autoptr(GArray) wanted = read_labels(labels, error);
   SporeLabelMap map = {0};
   gsize bytes_size;
   const void *bytes = g_bytes_get_data(content, &bytes_size);
-  if (!wanted || !spore_label_map_decode(file, bytes, bytes_size, &map, spore_cli_progress(cli), error)) return FALSE;
+  if (!spore_label_map_decode(file, bytes, bytes_size, &map, spore_cli_progress(cli), error)) return FALSE;
   SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
                                          .size = fields->size,
-                                         .labels = (const uint16_t *)(const void *)wanted->data,
-                                         .label_count = wanted->len};
+                                         .labels = (const uint16_t *)(const void *)labels->data,
+                                         .label_count = labels->len};
   gboolean done = spore_label_tetrahedra(file, &map, &options, mesh, report, spore_cli_progress(cli), error);
   spore_label_map_clear(&map);
   return done;

@@ -6,12 +6,12 @@
 #include "core/author/generated_edits.h"
 #include "core/generate/labels/labels.h"
 
-/* Meshes the label map in `content`, read from `file`. labels: "1,2,5", or NULL for all. The members of the report are
+/* Meshes the label map in `content`, read from `file`. labels: of guint16; empty for all. The members of the report are
  * those of spore tetrahedra, and `labels`. */
-gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels,
+gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const GArray *labels,
                                     const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
                                     SporeLabelTetrahedraReport *report, GError **error);
-/* Reports the organs. names: of spore_label_map_names. */
+/* Reports the organs. names: label -> char *. */
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
                              GHashTable *names);
 /* Saves a new scene: a soft body for each organ, with seams where organs share faces, and the label map. organs: file,

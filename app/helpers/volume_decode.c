@@ -11,7 +11,7 @@
 #define LARGEST_LABEL 65535
 #define MOST_BYTES ((size_t)SPORE_VOLUME_VOXELS * 8)
 
-static bool fail_memory(SporeHelperFailure *failure) {
+bool spore_volume_fail_memory(SporeHelperFailure *failure) {
   failure->code = SPORE_ERROR_MEMORY;
   failure->message = N_("the volume needs more memory than it may have; expected a smaller one; crop it first");
   failure->detail[0] = '\0';
@@ -31,7 +31,7 @@ static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t 
       room = room ? 2 * room : CHUNK;
       if (room > most) room = most;
       uint8_t *grown = realloc(*result, room);
-      if (!grown) return fail_memory(failure);
+      if (!grown) return spore_volume_fail_memory(failure);
       *result = grown;
     }
     size_t step = room - *filled < CHUNK ? room - *filled : CHUNK;
@@ -53,7 +53,7 @@ bool spore_inflate(const uint8_t *bytes, size_t size, size_t most, uint8_t **res
   z_stream stream = {.next_in = (uint8_t *)bytes, .avail_in = (uInt)size};
   *result = NULL;
   *result_size = 0;
-  if (size > UINT32_MAX / 2 || inflateInit2(&stream, 15 + 16) != Z_OK) return fail_memory(failure);
+  if (size > UINT32_MAX / 2 || inflateInit2(&stream, 15 + 16) != Z_OK) return spore_volume_fail_memory(failure);
   bool done = inflate_all(&stream, most, result, result_size, failure);
   inflateEnd(&stream);
   if (done) return true;
@@ -90,35 +90,41 @@ static double voxel(const SporeVolumeHead *head, const uint8_t *at) {
   return NAN;
 }
 
-static bool fill_labels(const SporeVolumeHead *head, const uint8_t *data, size_t voxels, char *labels,
-                        SporeHelperFailure *failure) {
-  for (size_t i = 0; i < voxels; i++) {
-    double value = head->slope * voxel(head, data + i * spore_voxel_bytes[head->type]) + head->shift;
+/* Labels that are stored as they are: of one or two bytes, in this machine's order. */
+static bool copy_labels(const SporeVolumeHead *head, const uint8_t *data, size_t count, uint16_t *labels) {
+  if (head->slope != 1 || head->shift != 0) return false;
+  if (head->type == SPORE_VOXEL_UINT8)
+    for (size_t i = 0; i < count; i++) labels[i] = data[i];
+  else if (head->type == SPORE_VOXEL_UINT16 && !head->swapped) memcpy(labels, data, count * sizeof *labels);
+  else return false;
+  return true;
+}
+
+bool spore_volume_labels(const SporeVolumeHead *head, const uint8_t *data, size_t first, size_t count, uint16_t *labels,
+                         SporeHelperFailure *failure) {
+  const size_t size = spore_voxel_bytes[head->type];
+  if (copy_labels(head, data + first * size, count, labels)) return true;
+  for (size_t i = 0; i < count; i++) {
+    double value = head->slope * voxel(head, data + (first + i) * size) + head->shift;
     if (!(value >= 0 && value <= LARGEST_LABEL) || value != floor(value))
       return spore_helper_fail(failure,
                                N_("it holds a value that is no label; expected whole numbers from 0 to 65535; "
                                   "is it a picture and not a segmentation?"),
-                               "%g in voxel %zu", value, i);
-    uint16_t label = (uint16_t)value;
-    memcpy(labels + i * sizeof label, &label, sizeof label);
+                               "%g in voxel %zu", value, first + i);
+    labels[i] = (uint16_t)value;
   }
   return true;
 }
 
-static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t size, void **result,
+static bool make_answer(const uint8_t *bytes, const SporeVolumeHead *head, const uint8_t *data, void **result,
                         size_t *result_size, SporeHelperFailure *failure) {
   size_t voxels = (size_t)(head->answer.size[0] * head->answer.size[1] * head->answer.size[2]);
-  size_t bytes = spore_voxel_bytes[head->type];
-  if (size < voxels * bytes)
-    return spore_helper_fail(failure,
-                             N_("the volume is cut short; expected as many voxels as its header says; copy or "
-                                "save it again"),
-                             "%zu of %zu bytes", size, voxels * bytes);
   *result_size = sizeof head->answer + voxels * sizeof(uint16_t);
   char *answer = malloc(*result_size);
-  if (!answer) return fail_memory(failure);
+  if (!answer) return spore_volume_fail_memory(failure);
   memcpy(answer, &head->answer, sizeof head->answer);
-  if (fill_labels(head, data, voxels, answer + sizeof head->answer, failure)) {
+  _Static_assert(sizeof head->answer % sizeof(uint16_t) == 0, "labels would not be aligned");
+  if (spore_volume_labels(head, data, 0, voxels, (uint16_t *)(void *)(answer + sizeof head->answer), failure)) {
     *result = answer;
     return true;
   }
@@ -126,28 +132,45 @@ static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t
   return false;
 }
 
-/* Decodes a content that is not compressed as a whole. */
-static bool decode_plain(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
-                         SporeHelperFailure *failure) {
+static bool check_size(const SporeVolumeHead *head, size_t size, SporeHelperFailure *failure) {
+  const size_t wanted =
+      (size_t)(head->answer.size[0] * head->answer.size[1] * head->answer.size[2]) * spore_voxel_bytes[head->type];
+  return size >= wanted || spore_helper_fail(failure,
+                                             N_("the volume is cut short; expected as many voxels as its header says; "
+                                                "copy or save it again"),
+                                             "%zu of %zu bytes", size, wanted);
+}
+
+/* Opens a content that is not compressed as a whole. */
+static bool open_plain(const uint8_t *bytes, size_t size, SporeVolumeUse *use, void **result, size_t *result_size,
+                       SporeHelperFailure *failure) {
   SporeVolumeHead head;
   bool nrrd = size >= 5 && memcmp(bytes, "NRRD0", 5) == 0;
   if (!(nrrd ? spore_nrrd_head(bytes, size, &head, failure) : spore_nifti_head(bytes, size, &head, failure)) ||
       !spore_volume_head_check(&head, failure))
     return false;
-  uint8_t *data = NULL;
-  bytes += head.data, size -= head.data;
-  if (head.compressed && !spore_inflate(bytes, size, MOST_BYTES, &data, &size, failure)) return false;
-  bool done = make_answer(&head, data ? data : bytes, size, result, result_size, failure);
-  free(data);
+  uint8_t *inflated = NULL;
+  const uint8_t *data = bytes + head.data;
+  size -= head.data;
+  if (head.compressed && !spore_inflate(data, size, MOST_BYTES, &inflated, &size, failure)) return false;
+  bool done =
+      check_size(&head, size, failure) && use(bytes, &head, inflated ? inflated : data, result, result_size, failure);
+  free(inflated);
+  return done;
+}
+
+bool spore_volume_open(const uint8_t *bytes, size_t size, SporeVolumeUse *use, void **result, size_t *result_size,
+                       SporeHelperFailure *failure) {
+  if (size < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b)
+    return open_plain(bytes, size, use, result, result_size, failure);
+  uint8_t *whole; /* .nii.gz */
+  if (!spore_inflate(bytes, size, MOST_BYTES, &whole, &size, failure)) return false;
+  bool done = open_plain(whole, size, use, result, result_size, failure);
+  free(whole);
   return done;
 }
 
 bool spore_volume_decode(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
                          SporeHelperFailure *failure) {
-  if (size < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b) return decode_plain(bytes, size, result, result_size, failure);
-  uint8_t *whole; /* .nii.gz */
-  if (!spore_inflate(bytes, size, MOST_BYTES, &whole, &size, failure)) return false;
-  bool done = decode_plain(whole, size, result, result_size, failure);
-  free(whole);
-  return done;
+  return spore_volume_open(bytes, size, make_answer, result, result_size, failure);
 }

@@ -9,7 +9,7 @@
 #include "core/io/helper.h"
 #include "core/io/volume_wire.h"
 
-static const SporeHelperLimits volume_limits = {
+const SporeHelperLimits spore_label_map_limits = {
     .time_s = 60, .memory = G_GUINT64_CONSTANT(6) << 30, .output = (1 << 29) + 4096};
 
 gboolean spore_label_map_is(const char *file, const void *content, gsize size) {
@@ -71,16 +71,20 @@ static gboolean read_answer(const char *place, GBytes *answer, SporeLabelMap *ma
                            _("the volume helper gave a wrong answer; expected labels; report this"));
 }
 
+gboolean spore_label_map_readable(const char *place, GError **error) {
+  return SPORE_HAVE_VOLUMES ||
+         spore_error_raise(
+             error, SPORE_ERROR_UNSUPPORTED, place,
+             _("this is a volume, and this build of SPORE reads none; expected a mesh; install zlib1g-dev and build "
+               "SPORE again, or give a surface"));
+}
+
 gboolean spore_label_map_decode(const char *place, const void *content, gsize size, SporeLabelMap *map,
                                 const SporeProgress *progress, GError **error) {
   *map = (SporeLabelMap){0};
-  if (!SPORE_HAVE_VOLUMES)
-    return spore_error_raise(
-        error, SPORE_ERROR_UNSUPPORTED, place,
-        _("this is a volume, and this build of SPORE reads none; expected a mesh; install zlib1g-dev and build SPORE "
-          "again, or give a surface"));
+  if (!spore_label_map_readable(place, error)) return FALSE;
   GBytes *request = g_bytes_new_static(content, size);
-  GBytes *answer = spore_helper_run("spore-volume", place, request, &volume_limits, progress, error);
+  GBytes *answer = spore_helper_run("spore-volume", place, request, &spore_label_map_limits, progress, error);
   g_bytes_unref(request);
   if (!answer) return FALSE;
   gboolean done = read_answer(place, answer, map, error);

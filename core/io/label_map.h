@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "core/base/progress.h"
+#include "core/io/helper.h"
 #include "core/math/vec3.h"
 #include "core/scene/error.h"
 
@@ -23,6 +24,9 @@ gboolean spore_label_map_is(const char *file, const void *content, gsize size);
  * NIfTI-1 .hdr. That must be one regular file in the same folder. Other content is returned as it is. g_bytes_unref;
  * NULL with an error. */
 GBytes *spore_label_map_whole(const char *file, GBytes *content, GError **error);
+extern const SporeHelperLimits spore_label_map_limits; /* of the helpers that read label maps */
+/* Whether this build reads label maps; else an error. */
+gboolean spore_label_map_readable(const char *place, GError **error);
 /* Decodes NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, in a helper process.
  * Place and size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where the
  * header has no unit. Refuses with a message a file that is cut short, is impossible, is too large, or holds values

@@ -14,4 +14,18 @@ typedef struct SporeVolumeAnswer {
       axes[12]; /* 3 x 4, rows: from indices (i, j, k, 1), of a voxel's middle, to RAS (+x right, +y front, +z up), m */
 } SporeVolumeAnswer;
 
+/* What spore-volume-list says of a label above 0 that occurs. */
+typedef struct SporeVolumeLabel {
+  uint64_t voxels;
+  uint32_t lower[3], upper[3]; /* indices of the outermost voxels */
+  uint32_t label, unused;
+  char name[64]; /* in the table of a NIfTI file, ends with 0; empty: it has none */
+} SporeVolumeLabel;
+
+/* `count` SporeVolumeLabel follow, ascending by label. */
+typedef struct SporeVolumeSurvey {
+  SporeVolumeAnswer volume;
+  uint64_t count;
+} SporeVolumeSurvey;
+
 #endif

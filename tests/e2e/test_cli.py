@@ -456,6 +456,49 @@ def labels_without_their_steps():
 
 
 @check
+def label_maps_are_listed_before_they_are_meshed():
+    """Number, name with where it comes from, voxels, volume, size and the sides that are reached; names choose labels."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without label maps")
+    size = (10, 8, 6)
+    at = lambda i, j, k: 3 if i < 4 and 1 <= j < 5 and 1 <= k < 5 else 7 if 6 <= i < 9 and 2 <= j < 6 and 2 <= k < 5 else 0
+    voxels = shapes.labels(size, at)
+    table = b'<CaretExtension><VolumeInformation><LabelTable><Label Key="3" Red="1">left kidney</Label></LabelTable></VolumeInformation></CaretExtension>'
+    table += bytes(-(len(table) + 8) % 16)
+    plain = bytearray(shapes.nifti(size, voxels, spacing=(1, 2, 3)))
+    bare, own = bytes(plain), bytearray(plain)
+    struct.pack_into("<f", own, 108, 352 + 8 + len(table))
+    own[348] = 1
+    own[352:352] = struct.pack("<ii", len(table) + 8, 30) + table
+    row = lambda name: {r["label"]: r for r in report("tetrahedra", name, "--list")["labels"]}
+    for name, content in (("list.nii", bare), ("list.nii.gz", gzip.compress(bare)), ("list.nrrd", shapes.nrrd(size, voxels, spacing=(1, 2, 3)))):
+        file(name, content)
+        rows = row(name)
+        assert list(rows) == [3, 7] and [rows[n]["voxels"] for n in rows] == [64, 36], rows
+        assert abs(rows[3]["volume_m3"] - 64 * 6e-9) < 1e-15 and all(abs(a - b) < 1e-12 for a, b in zip(rows[3]["size_m"] + rows[7]["size_m"], (0.004, 0.008, 0.012, 0.003, 0.008, 0.009))), rows
+        assert rows[3]["cut"] == ["i-"] and rows[7]["cut"] == [] and rows[3]["name"] is None and rows[3]["named"] is None, rows
+    file("own.nii.gz", gzip.compress(bytes(own)))
+    assert (row("own.nii.gz")[3]["name"], row("own.nii.gz")[3]["named"], row("own.nii.gz")[7]["name"]) == ("left kidney", "file", None)
+    sidecars = (("own.json", '{"labels": {"background": 0, "tumour": 7, "other": 3}}'), ("list.json", '{"name": "x", "7": "tumour"}'),
+                ("list.txt", '# ITK-SnAP\n    7   255    0    0        1  1  1    "tumour"\n'), ("list.ctbl", "7 tumour 255 0 0 255\n"))
+    for name, content in sidecars:
+        file(name, content)
+        rows = row("own.nii.gz" if name.startswith("own") else "list.nii")
+        assert (rows[7]["name"], rows[7]["named"]) == ("tumour", "sidecar"), (name, rows)
+        assert rows[3]["named"] == ("file" if name.startswith("own") else None), rows
+        if not name.startswith("own"):
+            (WORK / name).unlink()
+    one = report("tetrahedra", "own.nii.gz", "--cells", 100, "--labels", "Left Kidney")
+    assert [r["name"] for r in one["labels"]] == ["left kidney"], one
+    both = report("tetrahedra", "own.nii.gz", "--cells", 100, "--labels", "7, left kidney")
+    assert [(r["label"], r["name"]) for r in both["labels"]] == [(3, "left kidney"), (7, "tumour")], both
+    refuses("tetrahedra", "own.nii.gz", "--cells", 100, "--labels", "spleen", says=["spleen", "left kidney", "--list"])
+    refuses("tetrahedra", "own.nii.gz", "--list", "-o", "list.vtu", says=["--list", "-o"])
+    refuses("tetrahedra", file("list.off", shapes.off(*shapes.sphere())), "--list", says=["--list", "label map"])
+    assert "left kidney" in spore("tetrahedra", "own.nii.gz", "--list").stdout
+
+
+@check
 def scene_of_a_label_map():
     """A label map becomes a scene: a soft body of each organ, named as the file names it, joined by a seam; it runs."""
     if "volumes" not in FEATURES:

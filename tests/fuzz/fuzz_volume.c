@@ -22,7 +22,30 @@ const char *const fuzz_words[] = {"n+1",
                                   "endian: big\n",
                                   "dimension: 3\n",
                                   "\n\n",
+                                  "<Label Key=\"3\">liver</Label>",
                                   NULL};
+
+/* The survey of the same bytes: labels that lie in the volume, or a message. */
+static void check_survey(const uint8_t *content, size_t size) {
+  SporeHelperFailure failure = {0};
+  void *result = NULL;
+  size_t result_size = 0;
+  if (spore_volume_survey(content, size, &result, &result_size, &failure)) {
+    SporeVolumeSurvey answer;
+    SporeVolumeLabel label;
+    g_assert_cmpuint(result_size, >=, sizeof answer);
+    memcpy(&answer, result, sizeof answer);
+    g_assert_cmpuint(result_size, ==, sizeof answer + answer.count * sizeof label);
+    for (uint64_t i = 0; i < answer.count; i++) {
+      memcpy(&label, (const char *)result + sizeof answer + i * sizeof label, sizeof label);
+      g_assert_true(label.voxels > 0 && memchr(label.name, 0, sizeof label.name));
+      for (int k = 0; k < 3; k++)
+        g_assert_true(label.lower[k] <= label.upper[k] && label.upper[k] < answer.volume.size[k]);
+    }
+  } else
+    g_assert_true(failure.message && strchr(failure.message, ';') && memchr(failure.detail, 0, sizeof failure.detail));
+  free(result);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   SporeHelperFailure failure = {0};
@@ -38,5 +61,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   } else
     g_assert_true(failure.message && strchr(failure.message, ';') && memchr(failure.detail, 0, sizeof failure.detail));
   free(result);
+  check_survey(content, size);
   return 0;
 }
