@@ -227,6 +227,13 @@ static void place_unmovable(SporeGrid *grid, const SporeSpheres *spheres) {
   spore_cells_fill(&grid->unmovable, &grid->scale, spheres, 0, grid->static_count, NULL);
 }
 
+static bool is_lone(const SporeGrid *grid, const SporeSpheres *spheres) {
+  for (size_t i = grid->static_count; i < grid->count; i++)
+    if (spheres->body[i] != spheres->body[grid->static_count] || grid->bodies[spheres->body[i]] & SPORE_GRID_SELF)
+      return false;
+  return true;
+}
+
 /* A grid without exclusions. */
 static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char *bodies, size_t body_count,
                                size_t contact_capacity) {
@@ -250,6 +257,7 @@ static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char 
     return NULL;
   }
   memcpy(grid->bodies, bodies, body_count);
+  grid->lone = is_lone(grid, spheres);
   place_unmovable(grid, spheres);
   return grid;
 }

@@ -38,6 +38,7 @@ struct SporeGrid {
 
   double smallest;        /* radius, m */
   double ahead;           /* steps that pairs are looked ahead for */
+  bool lone;              /* all that moves is one body, which does not meet itself */
   bool fast;              /* some sphere moves so far in this step that it may pass another */
   bool strides;           /* some sphere did so in the step before, or does so now: it may have passed another */
   SporeContact *contacts; /* capacity */

@@ -7,9 +7,9 @@
 
 /* Forces that no sweep meets move the bodies as in symplectic Euler: v = v0 + h M^-1 f(q0, v0), q = q0 + h v. The
  * elements of bodies that can be met so are met one after the other, each implicitly by itself (SporeModelSweep), after
- * a part s of the step: q_s = q0 + s h (v0 + s (v - v0)) is where the other forces led, and the elements move it. What
- * comes out is followed on: u = (q_s - q0)/(s h), q1 = q0 + h u, v1 = v0 + (u - v0)/s. That is a splitting of the
- * equations of motion: of first order, and nothing is solved. */
+ * a part s of the step, and then their contacts: q_s = q0 + s h (v0 + s (v - v0)) is where the other forces led, and
+ * the elements move it. What comes out is followed on: u = (q_s - q0)/(s h), q1 = q0 + h u, v1 = v0 + (u - v0)/s. That
+ * is a splitting of the equations of motion: of first order, and nothing is solved. */
 #define PART                                                                                                           \
   0.8 /* s: at 1/2 the method would be of second order, and at 1 it would damp most. As little as bears any step       \
          of what is stiff: found by trial, see tests/stability/test_position_based.c. */
@@ -31,9 +31,11 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
 
 const SporeIntegrator spore_position_based = {
     .name = "position_based",
-    .doc = N_("First order, one sweep over the elements of a body a step, each met implicitly by itself: the quickest "
-              "to a rough answer where the body is stiff, and no step is too large for it. For nets, and neo-Hookean "
-              "tetrahedra that are linear and without stiffness_damping; all else moves as by symplectic_euler."),
+    .doc = N_(
+        "First order, one sweep over the elements of a body a step, each met implicitly by itself: the quickest "
+        "to a rough answer where the body is stiff, and no step is too large for it. For nets and linear neo-Hookean "
+        "tetrahedra, and their contacts with each other, with tools and with what does not move; all else moves "
+        "as by symplectic_euler, or by implicit_euler in contacts and links that a step does not resolve."),
     .swings = true,
     .sweeps = true,
     .stable_square = 4,

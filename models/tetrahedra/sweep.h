@@ -7,7 +7,12 @@
  *   F' = F S - h^2 V p C G S,   S = (1 + h^2 V a G)^-1,
  *   p = l (J - alpha + C : (F S) - 3 J) / (1 + l h^2 V C : (C G S)),
  * since C : F = 3 J. What resists shear is implicit in this, other than in XPBD (M. Macklin, M. Mueller and N.
- * Chentanez 2016), whose two constraints resist along their gradients alone. */
+ * Chentanez 2016), whose two constraints resist along their gradients alone.
+ *
+ * Viscosity P = F T, T = eta (2 mu E' + lambda tr E' I), comes after it in the same visit: it changes the rate of
+ * strain by -h V sym(F^T F T G), which is no more than that of c T, c = h V times bounds of the largest eigenvalues of
+ * F^T F and G. With c in its place the parts of T with and without trace are implicit apart, each with the stiffness C
+ * of its own: T = C E' / (1 + C c). It damps at any step, and somewhat less than it should where C c is large. */
 #ifndef SPORE_MODELS_TETRAHEDRA_SWEEP_H
 #define SPORE_MODELS_TETRAHEDRA_SWEEP_H
 

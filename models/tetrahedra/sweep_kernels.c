@@ -61,23 +61,80 @@ SPORE_INLINE SporeVd33 stress_of(Law law, const Corners *corners, SporeVd weight
   return stress;
 }
 
-SPORE_INLINE void meet(Law law, const SporeTetrahedronBatch *batch, size_t lane, size_t count, const SporeSweep *at) {
-  Corners corners = corners_of(batch, lane, at->now);
-  SporeVd weight = at->h * at->h * spore_vd_load(batch->volume + lane);
-  SporeVd33 stress = stress_of(law, &corners, weight);
+SPORE_INLINE void pull_corners(Corners *corners, const SporeVd33 *stress, SporeVd weight) {
   SPORE_UNROLL for (int k = 0; k < 4; k++) {
-    SporeVd4 row = corners.row[k];
-    SporeVd by = weight * row.w;
-    SporeVd3 pull = spore_vd33_apply(&stress, corners.gradient[k]);
-    row.x -= by * pull.x, row.y -= by * pull.y, row.z -= by * pull.z;
-    spore_vd4_scatter(at->now, batch->node[k] + lane, count, row);
+    SporeVd4 *row = &corners->row[k];
+    SporeVd by = weight * row->w;
+    SporeVd3 pull = spore_vd33_apply(stress, corners->gradient[k]);
+    row->x -= by * pull.x, row->y -= by * pull.y, row->z -= by * pull.z;
   }
+}
+
+/* No less than the largest eigenvalue of a symmetric matrix: Gershgorin. */
+SPORE_INLINE SporeVd largest_of(const SporeVd33 *a) {
+  SporeVd most = {0};
+  SPORE_UNROLL for (int i = 0; i < 3; i++) {
+    SporeVd row = {0};
+    SPORE_UNROLL for (int j = 0; j < 3; j++) row += spore_vd_abs(a->m[3 * i + j]);
+    most = spore_vd_max(most, row);
+  }
+  return most;
+}
+
+/* P of viscosity at the end of h seconds, at F: see sweep.h. moved: (F - F0), of the corners. weight: h V. */
+SPORE_INLINE SporeVd33 viscous_stress(SporeElasticity elasticity, const Corners *corners, const SporeVd33 *moved,
+                                      double h, SporeVd weight) {
+  SporeVd33 f = gradient_of(corners), g = give_of(corners), turned = spore_vd33_transpose(&f);
+  SporeVd33 square = spore_vd33_multiply(&turned, &f), along = spore_vd33_multiply(&turned, moved), strain;
+  double mu = 2 * elasticity.viscosity * elasticity.mu, bulk = mu + 3 * elasticity.viscosity * elasticity.lambda;
+  SporeVd give = weight * largest_of(&square) * largest_of(&g), mean = spore_vd33_product(&f, moved) * (1 / (3 * h));
+  SporeVd shear = mu / (1 + mu * give), pressure = bulk / (1 + bulk * give) * mean;
+  SPORE_UNROLL for (int i = 0; i < 3; i++) SPORE_UNROLL for (int j = 0; j < 3; j++) {
+    SporeVd rate = (0.5 / h) * (along.m[3 * i + j] + along.m[3 * j + i]);
+    if (i == j) rate -= mean;
+    strain.m[3 * i + j] = shear * rate;
+    if (i == j) strain.m[3 * i + j] += pressure;
+  }
+  return spore_vd33_multiply(&f, &strain);
+}
+
+/* F less that of the start of the step. */
+SPORE_INLINE SporeVd33 moved_of(const Corners *corners, const SporeTetrahedronBatch *batch, size_t lane,
+                                const double *before) {
+  Corners moved = *corners;
+  SPORE_UNROLL for (int k = 0; k < 4; k++) {
+    SporeVd3 start = spore_vd3_gather(before, batch->node[k] + lane);
+    moved.row[k].x -= start.x, moved.row[k].y -= start.y, moved.row[k].z -= start.z;
+  }
+  return gradient_of(&moved);
+}
+
+SPORE_INLINE void meet(Law law, SporeElasticity elasticity, const SporeTetrahedronBatch *batch, size_t lane,
+                       size_t count, const SporeSweep *at) {
+  Corners corners = corners_of(batch, lane, at->now);
+  SporeVd volume = spore_vd_load(batch->volume + lane), weight = at->h * at->h * volume;
+  SporeVd33 stress = stress_of(law, &corners, weight);
+  pull_corners(&corners, &stress, weight);
+  if (elasticity.viscosity > 0) {
+    SporeVd33 moved = moved_of(&corners, batch, lane, at->before);
+    stress = viscous_stress(elasticity, &corners, &moved, at->h, at->h * volume);
+    pull_corners(&corners, &stress, weight);
+  }
+  SPORE_UNROLL for (int k = 0; k < 4; k++) spore_vd4_scatter(at->now, batch->node[k] + lane, count, corners.row[k]);
+}
+
+SPORE_INLINE void meet_all(const SporeTetrahedraSweep *sweep, SporeElasticity elasticity, const SporeSweep *at) {
+  Law law = law_of(elasticity);
+  for (size_t i = 0; i < sweep->count; i++)
+    for (size_t lane = 0; lane < sweep->lanes[i]; lane += SPORE_WIDTH)
+      meet(law, elasticity, &sweep->batches[i], lane, sweep->lanes[i] - lane, at);
 }
 
 void SPORE_LEVEL_NAME(spore_tetrahedra_sweep_batches)(const SporeTetrahedraSweep *sweep, SporeElasticity elasticity,
                                                       const SporeSweep *at) {
-  Law law = law_of(elasticity);
-  for (size_t i = 0; i < sweep->count; i++)
-    for (size_t lane = 0; lane < sweep->lanes[i]; lane += SPORE_WIDTH)
-      meet(law, &sweep->batches[i], lane, sweep->lanes[i] - lane, at);
+  if (elasticity.viscosity > 0) meet_all(sweep, elasticity, at);
+  else {
+    elasticity.viscosity = 0;
+    meet_all(sweep, elasticity, at);
+  }
 }

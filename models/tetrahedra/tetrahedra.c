@@ -317,11 +317,8 @@ static const char *notice(const SporeModel *model, const double *q) {
            "cut_reserve");
 }
 
-/* Viscosity resists along many directions at once, and a quadratic element has too many nodes. */
-static bool can_sweep(const SporeModel *model) {
-  const Body *body = (const Body *)model;
-  return !body->tetrahedra.middles && body->elasticity.viscosity == 0;
-}
+/* A quadratic element has too many nodes. */
+static bool can_sweep(const SporeModel *model) { return !((const Body *)model)->tetrahedra.middles; }
 
 static bool prepare_sweep(SporeModel *model) {
   Body *body = (Body *)model;

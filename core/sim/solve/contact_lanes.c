@@ -10,7 +10,9 @@ static SporeContactLanes *lanes_at(const SporeIslandSystem *system, size_t i) {
   return &system->world->contact.lanes[system->island->lanes_start + i];
 }
 
-static size_t lanes_count(const SporeIslandSystem *system) { return spore_lanes_for(system->island->contact_count); }
+static size_t lanes_count(const SporeIslandSystem *system) {
+  return system->meets ? 0 : spore_lanes_for(system->island->contact_count);
+}
 
 /* Number of contacts in the i-th lanes. */
 static size_t count_in(const SporeIslandSystem *system, size_t i) {

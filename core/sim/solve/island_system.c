@@ -55,19 +55,35 @@ static void loose_force(void *data, const double *q, const double *v, double *f)
   system->sweeping = false;
 }
 
+/* What a sweep moves of a body, from where it was to where other forces led; NULL: the body is moved by these alone. */
+static double *rows_of(const SporeIslandSystem *system, size_t b, SporeRowsStep *step, double *rows) {
+  const SporeSite *site;
+  if (!spore_model_sweeps(spore_island_system_body(system, b, &site)->model)) return NULL;
+  step->x0 += site->q, step->v0 += site->v, step->x1 += site->q, step->v1 += site->v;
+  return rows + 4 * (site->v / 3);
+}
+
 static void sweep(void *data, double part, double h, const double *q0, const double *v0, double *q1, double *v1,
                   double *rows) {
   SporeIslandSystem *system = data;
+  const SporeRowsStep whole = {part, h, q0, v0, q1, v1};
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    if (!spore_model_sweeps(body->model)) continue;
-    const SporeRowsStep step = {part, h, q0 + site->q, v0 + site->v, q1 + site->q, v1 + site->v};
-    double *now = rows + 4 * (site->v / 3);
+    SporeRowsStep step = whole;
+    double *now = rows_of(system, b, &step, rows);
+    if (!now) continue;
     spore_rows_predict(body->block_count, now, &step, body->model->block_mass);
     for (size_t k = 0; k < body->held.count; k++) now[4 * (size_t)body->held.blocks[k] + 3] = 0;
     body->model->type->sweep->sweep(body->model, &(SporeSweep){.h = part * h, .before = step.x0, .now = now});
-    spore_rows_follow(body->block_count, now, &step);
+  }
+  if (system->meets)
+    spore_island_system_meet_contacts(system, &(SporeContactSweep){.h = part * h, .before = q0, .now = rows});
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeRowsStep step = whole;
+    const double *now = rows_of(system, b, &step, rows);
+    if (now) spore_rows_follow(spore_island_system_body(system, b, &site)->block_count, now, &step);
   }
 }
 
@@ -193,7 +209,7 @@ bool spore_island_system_resolves(const SporeIslandSystem *system, double h, boo
   if (system->island->contact_count + (links ? system->island->spring_count : 0) == 0) return true;
   double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
   count_terms(system, counts);
-  return resolves_contacts(system, h, counts) && (!links || resolves_springs(system, h, counts));
+  return (system->meets || resolves_contacts(system, h, counts)) && (!links || resolves_springs(system, h, counts));
 }
 
 static void term_force(void *data, const double *q, const double *v, double *f) {

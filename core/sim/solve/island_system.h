@@ -20,6 +20,7 @@ typedef struct SporeIslandSystem {
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* particles that go alone take part by their mass only: see multirate.c */
   bool sweeping;         /* forces are those that no sweep meets */
+  bool meets;            /* contacts are met in the sweep: no force is asked of them */
   bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double drift_s;        /* the longest that bodies moved free of force at once */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
@@ -159,6 +160,18 @@ static inline void spore_island_system_filter(const SporeIslandSystem *system, d
 void spore_island_system_lay_contacts(SporeIslandSystem *system);
 void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
                                             double *f);
+
+/* Where contacts are met one after the other: so many seconds after the integrator's step began. */
+typedef struct SporeContactSweep {
+  double h;
+  const double *before; /* q of the island when that step began */
+  double *now;          /* of the island's blocks, as in SporeSweep */
+} SporeContactSweep;
+
+/* contact_sweep.c. Whether sweeps may move all that the contacts of the island touch, and there are some. One sweep
+ * over them, in their order; their forces are left in the terms. */
+bool spore_island_system_can_meet(const SporeIslandSystem *system);
+void spore_island_system_meet_contacts(const SporeIslandSystem *system, const SporeContactSweep *at);
 
 /* island_factor.c. Whether the island is of rigid bodies alone, and of few. Factorises A as a whole where conjugate
  * gradients did not solve such an island; blocks: the bodies' own diagonal blocks, 9 each. False: it is not done, or
