@@ -11,6 +11,8 @@
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
 
+#define FOLLOWED 0.95 /* of the surface: below, the remedy is said */
+
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
   spore_cli_open_array(cli, "side_branches");
@@ -50,7 +52,7 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
   spore_cli_number(cli, "seconds", report->seconds);
   spore_cli_say(cli,
                 _("%zu points, %.4g m long, radius %.3g m (%.3g to %.3g), %.2f radii off the middle of its sections, "
-                  "%.0f %% of the organ around it, %.2f s\n"),
+                  "%.1f %% of the surface within its reach, %.2f s\n"),
                 curve->count, report->length, report->radius_mean, report->radius_min, report->radius_max,
                 report->offset, 100 * report->cover, report->seconds);
   if (report->components > 1)
@@ -59,6 +61,11 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
   if (report->inner_wall > 0)
     spore_cli_say(cli, _("the organ has a lumen, which counts as inside: %.0f %% of the surface is its wall\n"),
                   100 * report->inner_wall);
+  if (report->cover < FOLLOWED)
+    spore_cli_say(cli,
+                  _("%.1f %% of the surface is not followed; name two ends to follow another way, or take off what is "
+                    "no part of the tube\n"),
+                  100 * (1 - report->cover));
   if (report->approach < 1) spore_cli_say(cli, _("loops of the organ touch: they overlap as tubes of its radius\n"));
   report_branches(cli, report);
 }
@@ -231,7 +238,7 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"radius", N_("distance to the surface, m: mean, min, max")},
       {"components", N_("pieces of the organ; the line is that of the largest")},
       {"share", N_("of the organ's volume, of the piece that has the line")},
-      {"cover", N_("share of that piece within two radii of the line")},
+      {"cover", N_("share of the surface, by area, within two radii of the line through the inside")},
       {"inner_wall", N_("share of the surface that is the wall of a lumen; the lumen counts as inside")},
       {"offset", N_("mean distance of the line from the middle of its sections, of the radius (an estimate)")},
       {"outside", N_("share of the points that lie outside of the organ")},

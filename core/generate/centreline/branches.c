@@ -83,10 +83,11 @@ static double mark_near(Leftovers *left) {
   return (double)near / (double)all;
 }
 
-/* Collects one piece off the path: its farthest voxel, and whether it rejoins the path elsewhere. */
-static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns) {
+/* Collects one piece off the path: its farthest voxel, whether it rejoins the path elsewhere, and how far along. */
+static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns, double *ring) {
   const SporeVoxelSearch *search = left->search;
-  double first = HUGE_VAL, last = -HUGE_VAL, radius = 0;
+  double first = HUGE_VAL, last = -HUGE_VAL, radius = 0, whole = left->along[left->path->count - 1];
+  bool inner = false;
   size_t waiting = 0;
   uint32_t far = start;
   left->stack[waiting++] = start;
@@ -99,8 +100,10 @@ static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns) {
       if (next == SPORE_NO_VOXEL) continue;
       double reach = left->radius[left->foot[next]];
       if (search->length[next] <= SIDE * reach + search->tube->edge) {
-        first = fmin(first, left->along[left->foot[next]]);
-        last = fmax(last, left->along[left->foot[next]]);
+        double along = left->along[left->foot[next]];
+        first = fmin(first, along);
+        last = fmax(last, along);
+        inner = inner || fabs(along / whole - 0.5) < 0.25;
         radius = fmax(radius, reach);
       } else if (!left->seen[next]) {
         left->seen[next] = true;
@@ -109,6 +112,7 @@ static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns) {
     }
   }
   *returns = last - first > APART * radius;
+  if (!inner) *ring = fmax(*ring, (last - first) / whole);
   return far;
 }
 
@@ -121,22 +125,25 @@ static void name_branch(SporeCentrelineReport *report, const SporeCentrelineBran
   report->branch[at] = *branch;
 }
 
-bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath *path, SporeCentrelineReport *report,
-                                  double *cover, SporeError *error) {
+bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path, SporeCentrelineReport *report,
+                                  SporeError *error) {
   const SporeVoxelTube *tube = search->tube;
   Leftovers left;
   for (size_t i = 0; i < tube->count; i++) search->cost[i] = 1;
   if (!spore_voxel_search_spread(search, path->voxel, path->count, error)) return false;
-  bool room = leftovers_create(&left, search, path);
+  if (!path->near) path->near = SPORE_NEW_ARRAY(bool, tube->count);
+  bool room = leftovers_create(&left, search, path) && path->near;
   if (room) {
     measure_path(&left);
     find_feet(&left);
-    *cover = report->cover = mark_near(&left);
+    path->ring = 0;
+    path->followed = mark_near(&left);
+    memcpy(path->near, left.seen, tube->count * sizeof *path->near);
   }
   for (uint32_t i = 0; room && i < tube->count; i++) {
     if (tube->component[i] || left.seen[i]) continue;
     SporeCentrelineBranch branch = {0};
-    uint32_t far = take_piece(&left, i, &branch.returns), foot = left.foot[far];
+    uint32_t far = take_piece(&left, i, &branch.returns, &path->ring), foot = left.foot[far];
     branch.from = left.along[foot];
     branch.length = search->length[far] - left.radius[foot];
     spore_vec3_store(branch.foot, spore_voxel_middle(tube, path->voxel[foot]));

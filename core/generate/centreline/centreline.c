@@ -13,8 +13,7 @@
 #define LEAST_SLENDER 4.5 /* least length of a tube, in diameters */
 #define MOST_OFFSET 0.4   /* radii from the centroids of its sections: farther off, a line is no centreline */
 #define LEAST_COVER 0.4   /* least share of a tube's volume within two radii of its centreline */
-#define COILED 0.9        /* share of a solid near its centreline, if it has no lumen; less for the wall of a lumen */
-#define SKIN 0.1          /* of the volume of wall and lumen: a wall with less is not a tube by itself */
+#define RING 0.8          /* of a line, between the two places that a loop joins: more in a closed ring */
 #define BESIDE 1.5        /* largest distance of an end from the organ, in voxels */
 
 static bool check_options(const SporeCentrelineOptions *options, SporeError *error) {
@@ -28,64 +27,6 @@ static bool check_options(const SporeCentrelineOptions *options, SporeError *err
                          options->tolerance, SPORE_CENTRELINE_TOLERANCE);
 }
 
-/* Whether the solid without a lumen is already a tube. Its hidden surface then lies between its coils and is not the
- * wall of a lumen. filled: the solid with its lumen, as far as known. A very thin wall is not tested, because it would
- * need too many voxels. */
-static bool is_coiled(const SporeSolid *solid, const SporeSolid *filled, bool *coiled,
-                      const SporeProgressPart *progress, SporeError *error) {
-  SporeVoxelTube tube;
-  SporeVoxelPath path = {0};
-  SporeCentrelineReport report = {0};
-  *coiled = false;
-  if (solid->volume < SKIN * filled->volume) return true;
-  if (!spore_voxel_tube_create(&tube, solid, progress, error)) return false;
-  bool done = spore_voxel_path_find(&path, &tube, NULL, &report, progress, error);
-  *coiled = done && tube.share * report.cover >= COILED;
-  spore_voxel_path_clear(&path);
-  spore_voxel_tube_clear(&tube);
-  return done;
-}
-
-static bool runs_inside(const SporeSolid *solid, const SporeCurve *curve) {
-  SporeCentrelineReport report = {0};
-  spore_centreline_figures(solid, curve, &report);
-  return report.outside < 0.5;
-}
-
-static bool replace_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeError *error) {
-  if (!mesh->triangle_count) return true;
-  spore_solid_clear(solid);
-  return spore_solid_create(solid, mesh, error);
-}
-
-/* The solid whose centreline is sought, without inner walls. If there is a lumen, this is the solid of the outer
- * wall. curve: a curve that is known to run in the middle; NULL: none. */
-static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, const SporeCurve *curve, double *inner_wall,
-                       const SporeProgressPart *progress, SporeError *error) {
-  SporeOuterWall wall;
-  SporeSolid filled = {0};
-  SporeProgressPart looking = {progress->whole, progress->first, progress->share / 2};
-  SporeProgressPart trying = {progress->whole, progress->first + progress->share / 2, progress->share / 2};
-  if (!spore_solid_create(solid, mesh, error)) return false;
-  bool done =
-      spore_outer_wall(&solid->mesh, solid->bvh, &wall, &looking, error) && replace_solid(solid, &wall.solid, error);
-  bool coiled = !done || !(wall.hidden > 0) || (curve && runs_inside(solid, curve));
-  if (!coiled) {
-    done = replace_solid(&filled, &wall.filled, error);
-    if (done && !curve) done = is_coiled(solid, &filled, &coiled, &trying, error);
-  }
-  *inner_wall = coiled ? 0 : wall.hidden;
-  if (done && !coiled && filled.mesh.triangle_count) {
-    spore_solid_clear(solid);
-    *solid = filled;
-    filled = (SporeSolid){0};
-  }
-  spore_solid_clear(&filled);
-  spore_outer_wall_clear(&wall);
-  if (!done) spore_solid_clear(solid);
-  return done;
-}
-
 /* Voxels of the ends that were asked for. */
 static bool find_ends(const SporeVoxelTube *tube, const SporeCentrelineOptions *options, uint32_t ends[2],
                       SporeError *error) {
@@ -94,9 +35,10 @@ static bool find_ends(const SporeVoxelTube *tube, const SporeCentrelineOptions *
     if (!spore_vec3_is_finite(end))
       return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                              _("end %d is no place; three numbers in metres were expected; correct them"), i + 1);
-    ends[i] = spore_voxel_nearest(tube, end);
-    double distance = spore_vec3_distance(end, spore_voxel_middle(tube, ends[i]));
-    if (distance > BESIDE * tube->edge)
+    ends[i] = spore_voxel_of_place(tube, end);
+    uint32_t beside = ends[i] == SPORE_NO_VOXEL ? spore_voxel_nearest(tube, end) : ends[i];
+    double distance = spore_vec3_distance(end, spore_voxel_middle(tube, beside));
+    if (ends[i] == SPORE_NO_VOXEL || distance > BESIDE * tube->edge)
       return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                              _("end %d (%g %g %g) lies %g m outside of the organ or in a piece that does not hang "
                                "together with the largest; a place in it, in metres, was expected; move it"),
@@ -107,8 +49,8 @@ static bool find_ends(const SporeVoxelTube *tube, const SporeCentrelineOptions *
                          _("the two ends lie in the same place; two ends of a tube were expected; move one of them"));
 }
 
-static bool refuse_shape(const SporeCentrelineOptions *options, const SporeCentrelineReport *report, double volume,
-                         SporeError *error) {
+static bool refuse_shape(const SporeCentrelineOptions *options, const SporeCentrelineReport *report,
+                         const SporeVoxelPath *path, double volume, SporeError *error) {
   double diameter = 2 * sqrt(report->share * volume / (M_PI * report->length)), slender = report->length / diameter;
   if (options->ends_given) return true;
   if (slender < LEAST_SLENDER)
@@ -117,13 +59,18 @@ static bool refuse_shape(const SporeCentrelineOptions *options, const SporeCentr
         _("this is not a tube: its longest way inside is %g m, %.1f times its mean diameter; at least "
           "%g times was expected; give two ends, or make spheres or tetrahedra of it"),
         report->length, slender, LEAST_SLENDER);
-  if (report->cover >= LEAST_COVER && report->offset <= MOST_OFFSET) return true;
+  bool tube = path->followed >= LEAST_COVER && report->offset <= MOST_OFFSET;
+  if (tube && path->ring <= RING) return true;
+  if (tube)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("this is a closed ring, which has no ends; a tube with two ends was expected; give two "
+                             "ends, or cut the ring open"));
   return spore_error_set(
       error, SPORE_ERROR_INPUT, NULL,
       _("this is not a tube: %.0f %% of it lies around its longest way inside, which runs %.2f radii "
         "off the middle of its sections; it is flat, or has many branches; give two ends, or make "
         "spheres or tetrahedra of it"),
-      100 * report->cover, report->offset);
+      100 * path->followed, report->offset);
 }
 
 /* The voxel path is longer than the smooth line. Sets where along the smooth line each branch leaves. */
@@ -144,42 +91,50 @@ static void place_branches(const SporeCurve *curve, SporeCentrelineReport *repor
   }
 }
 
-static bool find(const SporeSolid *solid, const SporeCentrelineOptions *options, SporeCurve *curve,
-                 SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
-  SporeVoxelTube tube;
-  SporeVoxelPath path = {0};
-  SporeCurve dense = {0};
+/* The path between the ends that were asked for, or the one that is known already. */
+static bool find_path(SporeTubeOrgan *organ, const SporeCentrelineOptions *options, SporeCentrelineReport *report,
+                      const SporeProgressPart *progress, SporeError *error) {
   uint32_t ends[2];
-  SporeProgressPart filling = {progress, 0.3, 0.2}, finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.3};
-  if (!spore_voxel_tube_create(&tube, solid, &filling, error)) return false;
-  report->components = tube.component_count;
-  report->share = tube.share;
-  bool done = (!options->ends_given || find_ends(&tube, options, ends, error)) &&
-              spore_voxel_path_find(&path, &tube, options->ends_given ? ends : NULL, report, &finding, error) &&
-              spore_centreline_refine(solid, &tube, &path, options, &dense, &refining, error);
+  if (!options->ends_given && organ->path.count) {
+    memcpy(report->branch, organ->left.branch, sizeof report->branch);
+    report->branches = organ->left.branches;
+    return true;
+  }
+  spore_voxel_path_clear(&organ->path);
+  return (!options->ends_given || find_ends(&organ->tube, options, ends, error)) &&
+         spore_voxel_path_find(&organ->path, &organ->tube, options->ends_given ? ends : NULL, report, progress, error);
+}
+
+static bool find(SporeTubeOrgan *organ, const SporeCentrelineOptions *options, SporeCurve *curve,
+                 SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
+  SporeCurve dense = {0};
+  SporeProgressPart finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.2}, reaching = {progress, 0.9, 0.1};
+  report->components = organ->tube.component_count;
+  report->share = organ->tube.share;
+  report->inner_wall = organ->inner_wall;
+  bool done = find_path(organ, options, report, &finding, error) &&
+              spore_centreline_refine(&organ->solid, &organ->tube, &organ->path, options, &dense, &refining, error);
   if (done) {
-    spore_centreline_figures(solid, &dense, report);
+    spore_centreline_figures(&organ->solid, &dense, report);
     place_branches(&dense, report);
-    done = refuse_shape(options, report, solid->volume, error) && spore_centreline_thin(&dense, options, curve, error);
+    done = refuse_shape(options, report, &organ->path, organ->solid.volume, error) &&
+           spore_voxel_path_cover(&organ->path, &organ->tube, &report->cover, &reaching, error) &&
+           spore_centreline_thin(&dense, options, curve, error);
   }
   if (done && progress && progress->show) progress->show(progress->data, curve->points, curve->count);
   spore_curve_clear(&dense);
-  spore_voxel_path_clear(&path);
-  spore_voxel_tube_clear(&tube);
   return done;
 }
 
 bool spore_centreline_from_mesh(const SporeTriangleMesh *mesh, const SporeCentrelineOptions *options, SporeCurve *curve,
                                 SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
   uint64_t start = spore_clock_ns();
-  SporeSolid solid;
-  SporeProgressPart looking = {progress, 0, 0.3};
+  SporeTubeOrgan organ;
   *curve = (SporeCurve){0};
   *report = (SporeCentrelineReport){0};
-  if (!check_options(options, error) || !make_solid(&solid, mesh, NULL, &report->inner_wall, &looking, error))
-    return false;
-  bool done = find(&solid, options, curve, report, progress, error);
-  spore_solid_clear(&solid);
+  if (!check_options(options, error) || !spore_tube_organ_create(&organ, mesh, progress, error)) return false;
+  bool done = find(&organ, options, curve, report, progress, error);
+  spore_tube_organ_clear(&organ);
   if (!done) spore_curve_clear(curve);
   report->seconds = (double)(spore_clock_ns() - start) * 1e-9;
   return done;
@@ -189,9 +144,8 @@ bool spore_centreline_measure(const SporeTriangleMesh *mesh, SporeCurve *curve, 
                               SporeError *error) {
   uint64_t start = spore_clock_ns();
   SporeSolid solid;
-  SporeProgressPart none = {NULL, 0, 1};
   *report = (SporeCentrelineReport){0};
-  if (!spore_curve_validate(curve, error) || !make_solid(&solid, mesh, curve, &report->inner_wall, &none, error))
+  if (!spore_curve_validate(curve, error) || !spore_tube_solid_along(&solid, mesh, curve, &report->inner_wall, error))
     return false;
   spore_centreline_set_radii(&solid, curve);
   spore_centreline_figures(&solid, curve, report);

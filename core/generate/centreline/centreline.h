@@ -33,7 +33,7 @@ typedef struct SporeCentrelineReport {
   SporeCentrelineBranch branch[SPORE_CENTRELINE_NAMED]; /* the longest of them, longest first */
   size_t components; /* pieces of the organ that do not touch; the curve belongs to the largest */
   double share;      /* share of the organ's volume in the piece that has the curve */
-  double cover;      /* share of that piece's volume within two radii of the curve */
+  double cover;      /* share of the whole surface, by area, within two radii of the curve through the inside */
   double inner_wall; /* share of the surface that cannot be seen from outside and was left out: the wall of the lumen */
   double offset;   /* mean distance between the curve and the centroids of its sections, over the radius: an estimate */
   double outside;  /* share of points of the curve that are outside of the organ */

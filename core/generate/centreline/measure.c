@@ -72,11 +72,7 @@ void spore_centreline_figures(const SporeSolid *solid, const SporeCurve *curve, 
 /* Whether the ray leaves through the triangle's front. A triangle that the ray enters from outside lies within the
  * organ, or has the wrong orientation. */
 static bool leaves(const SporeSolid *solid, uint32_t triangle, SporeVec3 d) {
-  SporeVec3 corner[3];
-  for (size_t k = 0; k < 3; k++)
-    corner[k] = spore_vec3_load(solid->mesh.vertices + 3 * (size_t)solid->mesh.triangles[3 * (size_t)triangle + k]);
-  SporeVec3 n = spore_vec3_cross(spore_vec3_sub(corner[1], corner[0]), spore_vec3_sub(corner[2], corner[0]));
-  return spore_vec3_dot(n, d) > 0;
+  return spore_vec3_dot(spore_triangle_across(&solid->mesh, triangle), d) > 0;
 }
 
 double spore_section_wall(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach) {

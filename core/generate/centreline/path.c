@@ -53,6 +53,7 @@ static uint32_t deepest(const SporeVoxelTube *tube) {
 
 void spore_voxel_path_clear(SporeVoxelPath *path) {
   spore_free(path->voxel);
+  spore_free(path->near);
   *path = (SporeVoxelPath){0};
 }
 
@@ -60,7 +61,7 @@ void spore_voxel_path_clear(SporeVoxelPath *path) {
 static bool trace(const SporeVoxelSearch *search, uint32_t end, SporeVoxelPath *path) {
   size_t count = 1;
   for (uint32_t i = end; search->from[i] != i; i = search->from[i]) count++;
-  *path = (SporeVoxelPath){count, SPORE_NEW_ARRAY(uint32_t, count)};
+  *path = (SporeVoxelPath){.count = count, .voxel = SPORE_NEW_ARRAY(uint32_t, count)};
   if (!path->voxel) return false;
   for (size_t i = count; i-- > 0; end = search->from[end]) path->voxel[i] = end;
   return true;
@@ -103,7 +104,7 @@ static double length_to_end(const SporeVoxelTube *tube, const SporeVoxelPath *pa
 static bool join_branch(const SporeVoxelPath *way, const SporeVoxelPath *branch, size_t joint, bool front,
                         SporeVoxelPath *joined) {
   size_t kept = front ? way->count - joint : joint + 1, count = kept + branch->count - 1;
-  *joined = (SporeVoxelPath){count, SPORE_NEW_ARRAY(uint32_t, count)};
+  *joined = (SporeVoxelPath){.count = count, .voxel = SPORE_NEW_ARRAY(uint32_t, count)};
   if (!joined->voxel) return false;
   for (size_t i = 0; i < kept; i++) joined->voxel[i] = way->voxel[front ? way->count - 1 - i : i];
   memcpy(joined->voxel + kept, branch->voxel + 1, (branch->count - 1) * sizeof *branch->voxel);
@@ -138,8 +139,7 @@ static bool take_branch(SporeVoxelSearch *search, double power, const SporeCentr
 
 /* The cheapest path to a far end is not always the longest: a branch of the path may be longer than the end itself. */
 static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelPath *path,
-                             SporeCentrelineReport *report, const SporeCentrelineReport *clean, double *cover,
-                             SporeError *error) {
+                             SporeCentrelineReport *report, const SporeCentrelineReport *clean, SporeError *error) {
   for (int change = 0; change < MOST_CHANGES; change++) {
     bool taken = false;
     for (size_t i = 0; !taken && i < SPORE_CENTRELINE_NAMED && i < report->branches; i++)
@@ -147,7 +147,7 @@ static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelP
         return false;
     if (!taken) return true;
     *report = *clean;
-    if (!spore_voxel_search_leftovers(search, path, report, cover, error)) return false;
+    if (!spore_voxel_search_leftovers(search, path, report, error)) return false;
   }
   return true;
 }
@@ -156,20 +156,18 @@ bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, con
                            SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error) {
   SporeVoxelSearch search;
   const SporeCentrelineReport clean = *report;
-  double best = -1;
   *path = (SporeVoxelPath){0};
   if (!spore_voxel_search_create(&search, tube, progress, error)) return false;
   bool done = true;
-  for (size_t i = 0; done && i < POWERS && best < ENOUGH; i++) {
+  for (size_t i = 0; done && i < POWERS && path->followed < ENOUGH; i++) {
     SporeVoxelPath way = {0};
     SporeCentrelineReport left = clean;
-    double cover = 0;
     set_costs(&search, powers[i]);
-    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, &cover, error) &&
-           (ends || take_longer_ends(&search, powers[i], &way, &left, &clean, &cover, error));
-    if (done && cover > best) {
+    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, error) &&
+           (ends || take_longer_ends(&search, powers[i], &way, &left, &clean, error));
+    if (done && way.followed > path->followed) {
       spore_voxel_path_clear(path);
-      *path = way, *report = left, best = cover;
+      *path = way, *report = left;
     } else spore_voxel_path_clear(&way);
   }
   spore_voxel_search_clear(&search);

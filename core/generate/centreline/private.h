@@ -13,24 +13,50 @@ typedef struct SporeVoxelTube {
   double edge, lower[3]; /* m; lower corner of cube (0, 0, 0) */
   uint64_t *key;         /* count, ascending: position packed by spore_voxel_key */
   double *depth;         /* count: depth of the voxel's centre, m, > 0 */
-  uint32_t *neighbour;   /* count x 26, or SPORE_NO_VOXEL; the k-th lies along spore_voxel_offset(k) */
+  uint32_t *neighbour;   /* count x 26, or SPORE_NO_VOXEL where there is none or a wall lies between; the k-th lies
+                            along spore_voxel_offset(k) */
   uint32_t *component;   /* count: 0 is the largest */
   size_t component_count;
-  double share; /* share of the voxels in the largest component */
+  double share;            /* share of the voxels in the largest component */
+  const SporeSolid *solid; /* borrowed */
+  bool *of_piece;          /* by triangle: of the piece of the surface that hangs together and has the largest area */
+  bool of_one_piece;       /* that piece is nearly all: where it overlaps itself, its walls still part its inside */
 } SporeVoxelTube;
+/* The number of voxels that a solid gets, about. */
+double spore_voxel_tube_expected(const SporeSolid *solid);
 bool spore_voxel_tube_create(SporeVoxelTube *tube, const SporeSolid *solid, const SporeProgressPart *progress,
                              SporeError *error);
 void spore_voxel_tube_clear(SporeVoxelTube *tube);
 SporeVec3 spore_voxel_middle(const SporeVoxelTube *tube, uint32_t voxel);
 /* -1, 0 or 1 along each axis. */
 void spore_voxel_offset(int k, int offset[3]);
-/* Voxel of the largest component that is nearest to p. */
+/* Voxel at a position, or SPORE_NO_VOXEL. */
+uint32_t spore_voxel_at(const SporeVoxelTube *tube, const int64_t place[3]);
+/* Voxel of the largest component whose middle is nearest to p. */
 uint32_t spore_voxel_nearest(const SporeVoxelTube *tube, SporeVec3 p);
+
+/* Across the triangle, outward, twice as long as its area. */
+SporeVec3 spore_triangle_across(const SporeTriangleMesh *mesh, uint32_t triangle);
+bool spore_passage_know_piece(SporeVoxelTube *tube, SporeError *error);
+/* Whether the straight way between two places inside stays inside: a wall of the organ that is passed through, with the
+ * organ on both sides of it, is none. */
+bool spore_passage_open(const SporeVoxelTube *tube, SporeVec3 a, SporeVec3 b);
+/* Voxel of the largest component that is nearest to p, or to the place of the surface that is nearest to p, with no
+ * wall between; SPORE_NO_VOXEL: none is near. */
+uint32_t spore_voxel_of_place(const SporeVoxelTube *tube, SporeVec3 p);
+/* Nearest voxel of any component behind a place of the surface, with no wall between; SPORE_NO_VOXEL: the organ is too
+ * thin there. triangle: the one that has the place. *within: the place lies inside of the organ, whose parts overlap.
+ */
+uint32_t spore_voxel_under(const SporeVoxelTube *tube, SporeVec3 p, uint32_t triangle, bool *within);
 
 /* A path from voxel to voxel. */
 typedef struct SporeVoxelPath {
   size_t count;
   uint32_t *voxel; /* from one end to the other */
+  bool *near;      /* by voxel of the tube: within two radii of the path, through the inside */
+  double followed; /* share of the largest component's voxels that are near */
+  double ring;     /* the farthest along the path, of its length, between the two places that a loop left out joins, if
+                      the loop joins none of the middle half */
 } SporeVoxelPath;
 void spore_voxel_path_clear(SporeVoxelPath *path);
 
@@ -38,6 +64,10 @@ void spore_voxel_path_clear(SporeVoxelPath *path);
  * is NULL. The parts that the path leaves out go into the report's branches (from: m along the path). */
 bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, const uint32_t *ends,
                            SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error);
+
+/* Share of the surface, by area, behind which the voxels are near the path. */
+bool spore_voxel_path_cover(const SporeVoxelPath *path, const SporeVoxelTube *tube, double *cover,
+                            const SporeProgressPart *progress, SporeError *error);
 
 /* A surface without its inner walls. */
 typedef struct SporeOuterWall {
@@ -50,6 +80,21 @@ typedef struct SporeOuterWall {
 bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeOuterWall *wall,
                       const SporeProgressPart *progress, SporeError *error);
 void spore_outer_wall_clear(SporeOuterWall *wall);
+
+/* What a centreline is sought in. It does not move: its parts point to each other. */
+typedef struct SporeTubeOrgan {
+  SporeSolid solid; /* without inner walls; with its lumen, if it has one */
+  SporeVoxelTube tube;
+  SporeVoxelPath path;        /* between ends that were found; empty: not known yet */
+  SporeCentrelineReport left; /* its branches, with the path */
+  double inner_wall;          /* as in the report */
+} SporeTubeOrgan;
+bool spore_tube_organ_create(SporeTubeOrgan *organ, const SporeTriangleMesh *mesh, const SporeProgress *progress,
+                             SporeError *error);
+void spore_tube_organ_clear(SporeTubeOrgan *organ);
+/* The solid alone, for a curve that is known to run in the middle. */
+bool spore_tube_solid_along(SporeSolid *solid, const SporeTriangleMesh *mesh, const SporeCurve *curve,
+                            double *inner_wall, SporeError *error);
 
 /* Distance (m) from a point inside to the wall; walls with the organ on both sides are passed through; at most
  * `reach`. */

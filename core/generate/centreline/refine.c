@@ -11,6 +11,8 @@
 #define THIN 0.4        /* of the mean radius: least radius used for the spacing where the line is thinner */
 #define ROUNDS 10       /* of centring and smoothing */
 #define SMOOTHING 3.0   /* of a round: removes waves shorter than about 2 pi SMOOTHING^(1/4) points */
+#define FOLLOWING 0.5   /* the same of the last rounds: tight turns are not cut */
+#define LAST 4          /* rounds */
 #define REACH 2.0       /* of a section, in radii */
 #define MOVE 0.7        /* of the distance to the section's centroid */
 #define END_DEPTH 0.35  /* of the radius: an end this near to the surface is extended straight to it */
@@ -301,7 +303,7 @@ bool spore_centreline_refine(const SporeSolid *solid, const SporeVoxelTube *tube
     going = spore_progress_part(progress, (double)round / ROUNDS, _("middling the line"), error);
     room = respace(&line);
     if (room) middle(&line, solid);
-    room = room && smooth(&line, SMOOTHING, 1);
+    room = room && smooth(&line, round < ROUNDS - LAST ? SMOOTHING : FOLLOWING, 1);
     for (int side = 0; room && !options->ends_given && side < 2; side++) {
       cut_hook(&line);
       turn_round(&line);

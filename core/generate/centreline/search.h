@@ -30,8 +30,8 @@ void spore_voxel_search_clear(SporeVoxelSearch *search);
 /* The cheapest path from any of the starts to each voxel. */
 bool spore_voxel_search_spread(SporeVoxelSearch *search, const uint32_t *starts, size_t start_count, SporeError *error);
 
-/* Puts the parts that the path leaves out into the report, and the share of the voxels near the path into *cover. */
-bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath *path, SporeCentrelineReport *report,
-                                  double *cover, SporeError *error);
+/* Finds what is near the path, and puts the parts that the path leaves out into the report. */
+bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path, SporeCentrelineReport *report,
+                                  SporeError *error);
 
 #endif

@@ -11,6 +11,8 @@
 #define MOST 2000000   /* voxels */
 #define AXIS_BITS 21   /* of a key */
 #define REPORT_EACH 16 /* cells */
+#define JOIN_EACH 1024 /* voxels */
+#define JOINING 0.6    /* share of the work before neighbours are sought */
 
 static uint64_t key_of(const uint64_t place[3]) { return place[0] << 2 * AXIS_BITS | place[1] << AXIS_BITS | place[2]; }
 
@@ -71,15 +73,19 @@ static bool fill_cell(Filling *filling, size_t cell) {
 }
 
 /* Edge of the voxels: the edge of the smallest cell, divided so that the number of voxels is near WANTED. */
-static bool choose_edge(SporeVoxelTube *tube, const SporeSolid *solid, SporeError *error) {
+static double edge_of(const SporeSolid *solid) {
   double least = HUGE_VAL;
+  for (size_t i = 0; i < solid->cell_count; i++) least = fmin(least, solid->cells[4 * i + 3]);
+  return least / fmax(1, rint(least / cbrt(solid->volume / WANTED)));
+}
+
+double spore_voxel_tube_expected(const SporeSolid *solid) { return solid->volume / pow(edge_of(solid), 3); }
+
+static bool choose_edge(SporeVoxelTube *tube, const SporeSolid *solid, SporeError *error) {
   for (int k = 0; k < 3; k++) tube->lower[k] = HUGE_VAL;
-  for (size_t i = 0; i < solid->cell_count; i++) {
-    least = fmin(least, solid->cells[4 * i + 3]);
+  for (size_t i = 0; i < solid->cell_count; i++)
     for (int k = 0; k < 3; k++) tube->lower[k] = fmin(tube->lower[k], solid->cells[4 * i + (size_t)k]);
-  }
-  double parts = fmax(1, rint(least / cbrt(solid->volume / WANTED)));
-  tube->edge = least / parts;
+  tube->edge = edge_of(solid);
   if (solid->volume / pow(tube->edge, 3) <= MOST && 2 * solid->diagonal / tube->edge < 1 << AXIS_BITS) return true;
   return spore_error_set(error, SPORE_ERROR_NUMERICAL, NULL,
                          _("the organ is too thin for its size; a tube at most some ten thousand times as long as it "
@@ -89,8 +95,8 @@ static bool choose_edge(SporeVoxelTube *tube, const SporeSolid *solid, SporeErro
 static bool fill(Filling *filling, const SporeProgressPart *progress, SporeError *error) {
   const SporeSolid *solid = filling->solid;
   for (size_t cell = 0; cell < solid->cell_count; cell++) {
-    if (cell % REPORT_EACH == 0 &&
-        !spore_progress_part(progress, (double)cell / (double)solid->cell_count, _("measuring depths"), error))
+    if (cell % REPORT_EACH == 0 && !spore_progress_part(progress, JOINING * (double)cell / (double)solid->cell_count,
+                                                        _("measuring depths"), error))
       return false;
     if (!fill_cell(filling, cell)) return spore_generate_no_memory(error);
   }
@@ -111,9 +117,15 @@ static bool fill(Filling *filling, const SporeProgressPart *progress, SporeError
   return true;
 }
 
+/* Whether no wall lies between two voxels: balls of their depths that overlap hold the way between them. */
+static bool are_joined(const SporeVoxelTube *tube, size_t a, size_t b) {
+  SporeVec3 one = spore_voxel_middle(tube, (uint32_t)a), other = spore_voxel_middle(tube, (uint32_t)b);
+  return tube->depth[a] + tube->depth[b] > spore_vec3_distance(one, other) || spore_passage_open(tube, one, other);
+}
+
 /* Keys ascend, and so do the keys of all neighbours along one offset. So two indices that only move forward find
  * them. */
-static void find_neighbours(SporeVoxelTube *tube) {
+static bool find_neighbours(SporeVoxelTube *tube, const SporeProgressPart *progress, SporeError *error) {
   memset(tube->neighbour, 0xff, SPORE_VOXEL_NEIGHBOURS * tube->count * sizeof *tube->neighbour);
   for (int k = SPORE_VOXEL_NEIGHBOURS / 2; k < SPORE_VOXEL_NEIGHBOURS; k++) {
     int offset[3];
@@ -124,11 +136,13 @@ static void find_neighbours(SporeVoxelTube *tube) {
     for (size_t i = 0; i < tube->count; i++) {
       uint64_t key = tube->key[i] + (uint64_t)ahead;
       while (other < tube->count && tube->key[other] < key) other++;
-      if (other == tube->count || tube->key[other] != key) continue;
+      if (i % JOIN_EACH == 0 && !spore_progress_part(progress, JOINING, _("measuring depths"), error)) return false;
+      if (other == tube->count || tube->key[other] != key || !are_joined(tube, i, other)) continue;
       tube->neighbour[SPORE_VOXEL_NEIGHBOURS * i + (size_t)k] = (uint32_t)other;
       tube->neighbour[SPORE_VOXEL_NEIGHBOURS * other + SPORE_VOXEL_NEIGHBOURS - 1 - (size_t)k] = (uint32_t)i;
     }
   }
+  return true;
 }
 
 static size_t flood(SporeVoxelTube *tube, uint32_t *stack, uint32_t start, uint32_t number) {
@@ -170,14 +184,12 @@ static bool find_components(SporeVoxelTube *tube) {
 
 bool spore_voxel_tube_create(SporeVoxelTube *tube, const SporeSolid *solid, const SporeProgressPart *progress,
                              SporeError *error) {
-  *tube = (SporeVoxelTube){0};
+  *tube = (SporeVoxelTube){.solid = solid};
   Filling filling = {.solid = solid, .tube = tube};
   bool done = choose_edge(tube, solid, error) && fill(&filling, progress, error);
   spore_free(filling.voxels);
-  if (done) {
-    find_neighbours(tube);
-    done = find_components(tube) || spore_generate_no_memory(error);
-  }
+  done = done && spore_passage_know_piece(tube, error) && find_neighbours(tube, progress, error) &&
+         (find_components(tube) || spore_generate_no_memory(error));
   if (!done) spore_voxel_tube_clear(tube);
   return done;
 }
@@ -187,7 +199,21 @@ void spore_voxel_tube_clear(SporeVoxelTube *tube) {
   spore_free(tube->depth);
   spore_free(tube->neighbour);
   spore_free(tube->component);
+  spore_free(tube->of_piece);
   *tube = (SporeVoxelTube){0};
+}
+
+uint32_t spore_voxel_at(const SporeVoxelTube *tube, const int64_t place[3]) {
+  size_t low = 0, high = tube->count;
+  for (int k = 0; k < 3; k++)
+    if (place[k] < 0 || place[k] >= 1 << AXIS_BITS) return SPORE_NO_VOXEL;
+  uint64_t key = key_of((const uint64_t[3]){(uint64_t)place[0], (uint64_t)place[1], (uint64_t)place[2]});
+  while (low < high) {
+    size_t half = (low + high) / 2;
+    if (tube->key[half] < key) low = half + 1;
+    else high = half;
+  }
+  return low < tube->count && tube->key[low] == key ? (uint32_t)low : SPORE_NO_VOXEL;
 }
 
 uint32_t spore_voxel_nearest(const SporeVoxelTube *tube, SporeVec3 p) {
