@@ -8,7 +8,7 @@
 #include "core/mesh/isosurface.h"
 
 #define STEP 0.15 /* between points of the line, in radii */
-#define CUBE 0.38 /* of the grid of unions, in radii */
+#define GRID 0.38 /* of unions, in radii, where a shape names none */
 #define BALLS 81  /* of a bridge */
 #define CAP 1.5   /* radii at each end that are not compared */
 
@@ -133,7 +133,7 @@ static void put_bridges(const BowelShape *shape, SporeCurve *balls, size_t first
 }
 
 /* The surface of the balls. */
-static void skin(const SporeCurve *balls, SporeTriangleMesh *mesh) {
+static void skin(const SporeCurve *balls, double grid, SporeTriangleMesh *mesh) {
   Union whole = {.balls = *balls};
   double lower[3], upper[3];
   put_balls(&whole);
@@ -144,7 +144,7 @@ static void skin(const SporeCurve *balls, SporeTriangleMesh *mesh) {
       upper[k] = fmax(upper[k], balls->points[4 * i + k] + 1.5);
     }
   }
-  g_assert_true(spore_isosurface(lower, upper, CUBE, HUGE_VAL, depth_field, &whole, mesh, NULL, NULL));
+  g_assert_true(spore_isosurface(lower, upper, grid, HUGE_VAL, depth_field, &whole, mesh, NULL, NULL));
   g_hash_table_unref(whole.cells);
 }
 
@@ -155,7 +155,7 @@ static void unite(const BowelShape *shape, SporeTriangleMesh *mesh) {
   g_assert_true(spore_curve_allocate(&balls, count + bridges, NULL));
   for (size_t i = 0; i < 4 * count; i++) balls.points[i] = tube.points[i];
   put_bridges(shape, &balls, count);
-  skin(&balls, mesh);
+  skin(&balls, shape->grid > 0 ? shape->grid : GRID, mesh);
   spore_curve_clear(&balls);
   spore_curve_clear(&tube);
 }
@@ -193,7 +193,7 @@ void bowel_tree(SporeTriangleMesh *mesh) {
   g_autoptr(GArray) balls = g_array_new(FALSE, FALSE, sizeof(double));
   grow(balls, spore_vec3(0, 0, 0), spore_vec3(0, 0, -1), spore_vec3(1, 0, 0), 1, 3);
   SporeCurve all = {balls->len / 4, (double *)balls->data};
-  skin(&all, mesh);
+  skin(&all, GRID, mesh);
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++) mesh->vertices[i] *= BOWEL_RADIUS;
 }
 

@@ -17,6 +17,7 @@ typedef struct BowelShape {
   int sectors;       /* of a swept tube; 0: the surface of the union of balls, where what overlaps is one */
   int bridges;       /* places where neighbouring rows are joined; unions only */
   double bridge;     /* their radius, in radii */
+  double grid;       /* of unions, in radii: gaps that are narrower close here and there; 0: fine */
   double seam;       /* their length along the rows, in radii */
 } BowelShape;
 

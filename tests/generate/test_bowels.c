@@ -15,11 +15,11 @@ typedef struct Bowel {
 } Bowel;
 
 static const Bowel bowels[] = {
-    {"packed", {4, 2, 6, .gap = 0.02, .waves = 0.3, .unevenness = 0.9, .sectors = 12}},
-    {"noisy", {4, 2, 6, .gap = 0.02, .haustra = 0.1, .waves = 0.3, .noise = 0.05, .unevenness = 0.6, .sectors = 14}},
+    {"packed", {4, 2, 6, .gap = 0.02, .haustra = 0.1, .waves = 0.3, .noise = 0.05, .unevenness = 0.6, .sectors = 14}},
     {"overlapping", {4, 1, 8, .gap = -0.05, .waves = 0.3, .sectors = 14}},
     {"haustra", {4, 1, 8, .gap = 0.02, .haustra = 0.4, .waves = 0.3, .sectors = 16}},
-    {"bridged in six places", {4, 2, 6, .gap = 0.4, .haustra = 0.2, .waves = 0.3, .bridges = 6, .bridge = 0.6}},
+    {"bridged in six places", {4, 2, 6, .gap = 0.3, .haustra = 0.1, .waves = 0.3, .bridges = 6, .bridge = 0.75}},
+    {"grown together where the grid was coarse", {4, 2, 8, .gap = 0.1, .waves = 0.3, .grid = 0.5}},
     {"grown together along rows", {4, 2, 6, .gap = 0.2, .waves = 0.3, .bridges = 4, .bridge = 0.35, .seam = 3}},
 };
 
@@ -80,7 +80,7 @@ static SporeVec3 wall_beside(const SporeTriangleMesh *mesh, const SporeCurve *kn
  * loop that they were picked on and all loops between. */
 static void test_ends(void) {
   static const BowelShape shapes[] = {{4, 2, 6, .gap = 0.02, .waves = 0.3, .sectors = 12},
-                                      {4, 1, 8, .gap = 0.4, .waves = 0.3, .bridges = 3, .bridge = 0.6}};
+                                      {4, 1, 8, .gap = 0.3, .waves = 0.3, .bridges = 3, .bridge = 0.75}};
   for (size_t k = 0; k < G_N_ELEMENTS(shapes); k++) {
     SporeTriangleMesh mesh;
     SporeCurve known, line;

@@ -84,7 +84,7 @@ static double mark_near(Leftovers *left) {
 }
 
 /* Collects one piece off the path: its farthest voxel, whether it rejoins the path elsewhere, and how far along. */
-static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns, double *ring) {
+static uint32_t take_piece(Leftovers *left, uint32_t start, SporeVoxelStretch *beside, bool *returns, double *ring) {
   const SporeVoxelSearch *search = left->search;
   double first = HUGE_VAL, last = -HUGE_VAL, radius = 0, whole = left->along[left->path->count - 1];
   bool inner = false;
@@ -111,18 +111,22 @@ static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns, doubl
       }
     }
   }
+  *beside = (SporeVoxelStretch){first, last};
   *returns = last - first > APART * radius;
   if (!inner) *ring = fmax(*ring, (last - first) / whole);
   return far;
 }
 
-static void name_branch(SporeCentrelineReport *report, const SporeCentrelineBranch *branch) {
+static void name_branch(SporeCentrelineReport *report, SporeVoxelPath *path, const SporeCentrelineBranch *branch,
+                        const SporeVoxelStretch *beside) {
   size_t at = report->branches < SPORE_CENTRELINE_NAMED ? report->branches : SPORE_CENTRELINE_NAMED;
   report->branches++;
   while (at > 0 && report->branch[at - 1].length < branch->length) at--;
   if (at == SPORE_CENTRELINE_NAMED) return;
   memmove(report->branch + at + 1, report->branch + at, (SPORE_CENTRELINE_NAMED - at - 1) * sizeof *report->branch);
+  memmove(path->beside + at + 1, path->beside + at, (SPORE_CENTRELINE_NAMED - at - 1) * sizeof *path->beside);
   report->branch[at] = *branch;
+  path->beside[at] = *beside;
 }
 
 bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path, SporeCentrelineReport *report,
@@ -143,12 +147,13 @@ bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path
   for (uint32_t i = 0; room && i < tube->count; i++) {
     if (tube->component[i] || left.seen[i]) continue;
     SporeCentrelineBranch branch = {0};
-    uint32_t far = take_piece(&left, i, &branch.returns, &path->ring), foot = left.foot[far];
+    SporeVoxelStretch beside;
+    uint32_t far = take_piece(&left, i, &beside, &branch.returns, &path->ring), foot = left.foot[far];
     branch.from = left.along[foot];
     branch.length = search->length[far] - left.radius[foot];
     spore_vec3_store(branch.foot, spore_voxel_middle(tube, path->voxel[foot]));
     spore_vec3_store(branch.end, spore_voxel_middle(tube, far));
-    if (search->length[far] > BRANCH * left.radius[foot]) name_branch(report, &branch);
+    if (search->length[far] > BRANCH * left.radius[foot]) name_branch(report, path, &branch, &beside);
   }
   leftovers_clear(&left);
   return room || spore_generate_no_memory(error);

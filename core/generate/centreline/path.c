@@ -15,11 +15,16 @@ static const double powers[] = {3, 6, 12};
 #define ENOUGH 0.995 /* covered share above which no other power is tried */
 #define LONGER 2.0   /* mean radii by which a branch must be longer than the end that it replaces: a diameter */
 #define MOST_CHANGES 4
+#define CUT 1e9 /* what a section that is closed costs, over what it would cost */
+#define MOST_CUTS 64
+#define MOST_IN_VAIN 8 /* cuts that gain nothing, in a row */
+#define GAIN 0.002     /* share of the organ that a cut must gain */
 
 static void set_costs(SporeVoxelSearch *search, double power) {
   double deepest = 0;
   for (size_t i = 0; i < search->tube->count; i++) deepest = fmax(deepest, search->tube->depth[i]);
-  for (size_t i = 0; i < search->tube->count; i++) search->cost[i] = pow(deepest / search->tube->depth[i], power);
+  for (size_t i = 0; i < search->tube->count; i++)
+    search->cost[i] = pow(deepest / search->tube->depth[i], power) * (search->cut[i] ? CUT : 1);
 }
 
 static bool is_end(const SporeVoxelSearch *search, uint32_t voxel) {
@@ -152,24 +157,87 @@ static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelP
   return true;
 }
 
+/* The path by one power of the costs, with what it leaves out. */
+static bool find_by(SporeVoxelSearch *search, double power, const uint32_t *ends, SporeVoxelPath *way,
+                    SporeCentrelineReport *left, const SporeCentrelineReport *clean, SporeError *error) {
+  *left = *clean;
+  set_costs(search, power);
+  return find_way(search, ends, way, error) && spore_voxel_search_leftovers(search, way, left, error) &&
+         (ends || take_longer_ends(search, power, way, left, clean, error));
+}
+
+/* Whether another path is better: it follows more, and between given ends, where nothing says that all of the organ is
+ * meant, it also passes no narrower neck. */
+static bool is_better(const SporeVoxelTube *tube, const SporeVoxelPath *other, const SporeVoxelPath *path, bool given,
+                      bool *better, SporeError *error) {
+  double narrow[2];
+  *better = other->followed > path->followed + GAIN;
+  if (!*better || !given) return true;
+  if (!spore_voxel_path_narrowest(other, tube, &narrow[0], error) ||
+      !spore_voxel_path_narrowest(path, tube, &narrow[1], error))
+    return false;
+  *better = narrow[0] > narrow[1];
+  return true;
+}
+
+/* A path with one more cut, beside a piece that the path left out; kept if it is better. */
+static bool try_cut(SporeVoxelSearch *search, double power, const uint32_t *ends, size_t piece, SporeVoxelPath *path,
+                    SporeCentrelineReport *report, const SporeCentrelineReport *clean, bool *better,
+                    SporeError *error) {
+  size_t size = search->tube->count * sizeof *search->cut;
+  bool *before = SPORE_NEW_ARRAY(bool, search->tube->count), marked = false;
+  SporeVoxelPath other = {0};
+  SporeCentrelineReport left;
+  *better = false;
+  if (!before) return spore_generate_no_memory(error);
+  memcpy(before, search->cut, size);
+  bool done = spore_voxel_path_mark_neck(path, search->tube, piece, search->cut, &marked, error);
+  if (done && marked)
+    done = find_by(search, power, ends, &other, &left, clean, error) &&
+           is_better(search->tube, &other, path, ends, better, error);
+  if (done && *better) {
+    spore_voxel_path_clear(path);
+    *path = other, *report = left;
+  } else {
+    memcpy(search->cut, before, size);
+    spore_voxel_path_clear(&other);
+  }
+  spore_free(before);
+  return done;
+}
+
+/* Closes necks, one by one, while the path gains by it. */
+static bool cut_necks(SporeVoxelSearch *search, double power, const uint32_t *ends, SporeVoxelPath *path,
+                      SporeCentrelineReport *report, const SporeCentrelineReport *clean, SporeError *error) {
+  size_t piece = 0, vain = 0;
+  for (size_t cuts = 0; cuts < MOST_CUTS && vain < MOST_IN_VAIN; cuts++) {
+    bool better;
+    if (piece >= SPORE_CENTRELINE_NAMED || piece >= report->branches) return true;
+    if (!try_cut(search, power, ends, piece, path, report, clean, &better, error)) return false;
+    piece = better ? 0 : piece + 1;
+    vain = better ? 0 : vain + 1;
+  }
+  return true;
+}
+
 bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, const uint32_t *ends,
                            SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error) {
   SporeVoxelSearch search;
   const SporeCentrelineReport clean = *report;
+  double power = powers[0];
   *path = (SporeVoxelPath){0};
   if (!spore_voxel_search_create(&search, tube, progress, error)) return false;
   bool done = true;
   for (size_t i = 0; done && i < POWERS && path->followed < ENOUGH; i++) {
     SporeVoxelPath way = {0};
-    SporeCentrelineReport left = clean;
-    set_costs(&search, powers[i]);
-    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, error) &&
-           (ends || take_longer_ends(&search, powers[i], &way, &left, &clean, error));
+    SporeCentrelineReport left;
+    done = find_by(&search, powers[i], ends, &way, &left, &clean, error);
     if (done && way.followed > path->followed) {
       spore_voxel_path_clear(path);
-      *path = way, *report = left;
+      *path = way, *report = left, power = powers[i];
     } else spore_voxel_path_clear(&way);
   }
+  done = done && (path->followed >= ENOUGH || cut_necks(&search, power, ends, path, report, &clean, error));
   spore_voxel_search_clear(&search);
   if (!done) spore_voxel_path_clear(path);
   return done;

@@ -10,13 +10,13 @@
 #define SPORE_NO_VOXEL UINT32_MAX
 typedef struct SporeVoxelTube {
   size_t count;
-  double edge, lower[3]; /* m; lower corner of cube (0, 0, 0) */
-  uint64_t *key;         /* count, ascending: position packed by spore_voxel_key */
-  double *depth;         /* count: depth of the voxel's centre, m, > 0 */
-  uint32_t *neighbour;   /* count x 26, or SPORE_NO_VOXEL where there is none or a wall lies between; the k-th lies
-                            along spore_voxel_offset(k) */
-  uint32_t *component;   /* count: 0 is the largest */
-  size_t component_count;
+  double edge, lower[3];   /* m; lower corner of cube (0, 0, 0) */
+  uint64_t *key;           /* count, ascending: position packed by spore_voxel_key */
+  double *depth;           /* count: depth of the voxel's centre, m, > 0 */
+  uint32_t *neighbour;     /* count x 26, or SPORE_NO_VOXEL where there is none or a wall lies between; the k-th lies
+                              along spore_voxel_offset(k) */
+  uint32_t *component;     /* count: 0 is the largest */
+  size_t component_count;  /* without specks */
   double share;            /* share of the voxels in the largest component */
   const SporeSolid *solid; /* borrowed */
   bool *of_piece;          /* by triangle: of the piece of the surface that hangs together and has the largest area */
@@ -49,10 +49,16 @@ uint32_t spore_voxel_of_place(const SporeVoxelTube *tube, SporeVec3 p);
  */
 uint32_t spore_voxel_under(const SporeVoxelTube *tube, SporeVec3 p, uint32_t triangle, bool *within);
 
+/* Part of a path, m from the path's beginning. */
+typedef struct SporeVoxelStretch {
+  double from, to;
+} SporeVoxelStretch;
+
 /* A path from voxel to voxel. */
 typedef struct SporeVoxelPath {
   size_t count;
-  uint32_t *voxel; /* from one end to the other */
+  uint32_t *voxel;                                  /* from one end to the other */
+  SporeVoxelStretch beside[SPORE_CENTRELINE_NAMED]; /* where the pieces left out that a report names touch the path */
   bool *near;      /* by voxel of the tube: within two radii of the path, through the inside */
   double followed; /* share of the largest component's voxels that are near */
   double ring;     /* the farthest along the path, of its length, between the two places that a loop left out joins, if

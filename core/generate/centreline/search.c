@@ -48,6 +48,7 @@ void spore_voxel_search_clear(SporeVoxelSearch *search) {
   spore_free(search->queue.voxel);
   spore_free(search->queue.place);
   spore_free(search->cost);
+  spore_free(search->cut);
   spore_free(search->distance);
   spore_free(search->length);
   spore_free(search->volume);
@@ -64,9 +65,10 @@ bool spore_voxel_search_create(SporeVoxelSearch *search, const SporeVoxelTube *t
   search->queue.distance = search->distance = SPORE_NEW_ARRAY(double, count);
   search->length = SPORE_NEW_ARRAY(double, count);
   search->volume = SPORE_NEW_ARRAY(double, count);
+  search->cut = SPORE_NEW_ARRAY(bool, count);
   search->from = SPORE_NEW_ARRAY(uint32_t, count);
   if (search->queue.voxel && search->queue.place && search->cost && search->distance && search->length &&
-      search->volume && search->from)
+      search->volume && search->from && search->cut)
     return true;
   spore_voxel_search_clear(search);
   return spore_generate_no_memory(error);

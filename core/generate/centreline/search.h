@@ -21,6 +21,7 @@ typedef struct SporeVoxelSearch {
   double *length;   /* m along the path to the voxel */
   double *volume;   /* of a tube around the path to the voxel, with the depth as its radius, over pi, m^3 */
   uint32_t *from;   /* the previous voxel; itself at a start, SPORE_NO_VOXEL where no path leads */
+  bool *cut;        /* dear to pass, where loops are grown together */
   const SporeProgressPart *progress;
 } SporeVoxelSearch;
 
@@ -33,5 +34,13 @@ bool spore_voxel_search_spread(SporeVoxelSearch *search, const uint32_t *starts,
 /* Finds what is near the path, and puts the parts that the path leaves out into the report. */
 bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path, SporeCentrelineReport *report,
                                   SporeError *error);
+
+/* Marks in `cut` (by voxel) the section through the narrowest neck of the path beside one of the pieces that it leaves
+ * out (its number in the report). *marked: there is one. */
+bool spore_voxel_path_mark_neck(const SporeVoxelPath *path, const SporeVoxelTube *tube, size_t piece, bool *cut,
+                                bool *marked, SporeError *error);
+/* Depth of the path's narrowest neck, over the lesser of the largest depths on both sides; nearly 1 without a neck. */
+bool spore_voxel_path_narrowest(const SporeVoxelPath *path, const SporeVoxelTube *tube, double *narrow,
+                                SporeError *error);
 
 #endif

@@ -10,6 +10,7 @@
 #define WANTED 60000   /* voxels, about */
 #define MOST 2000000   /* voxels */
 #define AXIS_BITS 21   /* of a key */
+#define SPECK 1e-3     /* of the voxels: a piece with less does not count, as where an organ overlaps itself */
 #define REPORT_EACH 16 /* cells */
 #define JOIN_EACH 1024 /* voxels */
 #define JOINING 0.6    /* share of the work before neighbours are sought */
@@ -163,15 +164,16 @@ static size_t flood(SporeVoxelTube *tube, uint32_t *stack, uint32_t start, uint3
 
 /* The largest becomes number 0. */
 static bool find_components(SporeVoxelTube *tube) {
-  uint32_t *stack = SPORE_NEW_ARRAY(uint32_t, tube->count), largest = 0;
+  uint32_t *stack = SPORE_NEW_ARRAY(uint32_t, tube->count), largest = 0, number = 0;
   size_t most = 0;
   if (!stack) return false;
   memset(tube->component, 0xff, tube->count * sizeof *tube->component);
   for (uint32_t i = 0; i < tube->count; i++) {
     if (tube->component[i] != SPORE_NO_VOXEL) continue;
-    uint32_t number = (uint32_t)tube->component_count++;
     size_t size = flood(tube, stack, i, number);
     if (size > most) most = size, largest = number;
+    tube->component_count += (double)size >= SPECK * (double)tube->count;
+    number++;
   }
   for (size_t i = 0; i < tube->count; i++) {
     if (tube->component[i] == largest) tube->component[i] = 0;
