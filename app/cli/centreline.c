@@ -11,8 +11,6 @@
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
 
-#define FOLLOWED 0.95 /* of the surface: below, the remedy is said */
-
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
   spore_cli_open_array(cli, "side_branches");
@@ -61,7 +59,7 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
   if (report->inner_wall > 0)
     spore_cli_say(cli, _("the organ has a lumen, which counts as inside: %.0f %% of the surface is its wall\n"),
                   100 * report->inner_wall);
-  if (report->cover < FOLLOWED)
+  if (report->cover < SPORE_CENTRELINE_FOLLOWED)
     spore_cli_say(cli,
                   _("%.1f %% of the surface is not followed; name two ends to follow another way, or take off what is "
                     "no part of the tube\n"),

@@ -83,7 +83,9 @@ static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
-  if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
+  options.way = work->curve_way = g_try_new(double, work->mesh.vertex_count + 1);
+  if (!options.way) spore_error_set(&failure, SPORE_ERROR_MEMORY, NULL, "%s", _("not enough memory"));
+  else if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
     return TRUE;
   spore_error_at(&failure, work->source);
   return spore_error_propagate(&failure, error);
@@ -106,6 +108,8 @@ static char *facts(const SporeGenerateWork *work) {
       work->curve.count, report->seconds, 1e3 * report->length, 1e3 * report->radius_mean, 1e3 * report->radius_min,
       1e3 * report->radius_max, loops, report->branches - loops);
   g_string_append_printf(text, _("\nFollows %.1f %% of the surface"), 100 * report->cover);
+  if (report->cover < SPORE_CENTRELINE_FOLLOWED)
+    g_string_append(text, _("; Way to the line shows what is left out, two picked ends make another line"));
   if (report->components > 1)
     g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
                            100 * report->share);

@@ -65,6 +65,7 @@ struct SporeGenerateWork {
   SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */
   SporeCurve curve;                        /* out */
   SporeCentrelineReport curve_report;      /* out */
+  double *curve_way;                       /* out: a vertex of the given mesh, to the line through the inside, m */
   SporeTriangleMesh surface;               /* out: with a wall, all around it */
   SporeSurfaceReport surface_report;       /* out; zero where it was not thinned */
   SporeWallReport wall_report;             /* out; zero without a wall */

@@ -52,17 +52,24 @@ static void test_bowel(gconstpointer data) {
   spore_triangle_mesh_clear(&mesh);
 }
 
-/* A line of which nothing is asked but that there is one, or a refusal. */
+/* A line of which nothing is asked but that there is one, or a refusal. *farthest: the longest way of a vertex to it,
+ * in radii of a bowel. */
 static bool find(const SporeTriangleMesh *mesh, const double *ends, SporeCurve *line, SporeCentrelineReport *report,
-                 SporeError *error) {
-  SporeCentrelineOptions options = {.ends_given = ends != NULL};
+                 double *farthest, SporeError *error) {
+  g_autofree double *way = g_new(double, mesh->vertex_count);
+  SporeCentrelineOptions options = {.ends_given = ends != NULL, .way = way};
   for (size_t k = 0; ends && k < 6; k++) options.ends[k / 3][k % 3] = ends[k];
   bool done = spore_centreline_from_mesh(mesh, &options, line, report, NULL, error);
+  *farthest = 0;
+  for (size_t i = 0; done && i < mesh->vertex_count; i++) {
+    g_assert_cmpfloat(way[i], <, HUGE_VAL);
+    *farthest = fmax(*farthest, way[i] / BOWEL_RADIUS);
+  }
   if (!done) g_test_message("refused: %s", error->message);
   else
-    g_test_message("%.3f m, cover %.3f, %zu pieces, %zu branches, the longest %.3f m%s", report->length, report->cover,
-                   report->components, report->branches, report->branch[0].length,
-                   report->branch[0].returns ? ", back" : "");
+    g_test_message("%.3f m, cover %.3f, farthest %.2f radii, %zu pieces, %zu branches, the longest %.3f m%s",
+                   report->length, report->cover, *farthest, report->components, report->branches,
+                   report->branch[0].length, report->branch[0].returns ? ", back" : "");
   return done;
 }
 
@@ -86,12 +93,12 @@ static void test_ends(void) {
     SporeCurve known, line;
     SporeCentrelineReport report;
     SporeError error = SPORE_ERROR_INIT;
-    double ends[6];
+    double ends[6], farthest;
     bowel_create(&shapes[k], &mesh, &known);
     size_t from = known.count / 5, to = 4 * known.count / 5;
     spore_vec3_store(ends, wall_beside(&mesh, &known, from, spore_vec3(0, 0, 1)));
     spore_vec3_store(ends + 3, wall_beside(&mesh, &known, to, spore_vec3(0, 0, 1)));
-    g_assert_true(find(&mesh, ends, &line, &report, &error));
+    g_assert_true(find(&mesh, ends, &line, &report, &farthest, &error));
     SporeCurve between = {to - from, known.points + 4 * from};
     BowelFit fit = bowel_fit(&between, &line);
     check(&fit);
@@ -108,13 +115,15 @@ static void test_two_pieces(void) {
   SporeCurve known, line;
   SporeCentrelineReport report;
   SporeError error = SPORE_ERROR_INIT;
+  double farthest;
   bowel_create(&shape, &mesh, &known);
   g_assert_true(spore_triangle_mesh_copy(&other, &mesh, NULL));
   shape_move(&other, 0, 0, 2.02 * BOWEL_RADIUS);
   shape_append(&mesh, &other);
-  g_assert_true(find(&mesh, NULL, &line, &report, &error));
+  g_assert_true(find(&mesh, NULL, &line, &report, &farthest, &error));
   g_assert_cmpuint(report.components, ==, 2);
   g_assert_cmpfloat(report.cover, <, 0.52);
+  g_assert_cmpfloat(farthest, >, 8); /* no way leads to the other piece */
   spore_curve_clear(&line);
   spore_curve_clear(&known);
   spore_triangle_mesh_clear(&other);
@@ -129,6 +138,7 @@ static void test_hole(void) {
   SporeCentrelineReport report;
   SporeError error = SPORE_ERROR_INIT;
   size_t kept = 0;
+  double farthest;
   bowel_create(&shape, &mesh, &known);
   SporeVec3 hole = wall_beside(&mesh, &known, known.count / 3, spore_vec3(0, 0, 1));
   for (size_t t = 0; t < mesh.triangle_count; t++) {
@@ -139,9 +149,10 @@ static void test_hole(void) {
   }
   g_assert_cmpuint(kept, <, mesh.triangle_count);
   mesh.triangle_count = kept;
-  g_assert_true(find(&mesh, NULL, &line, &report, &error));
+  g_assert_true(find(&mesh, NULL, &line, &report, &farthest, &error));
   BowelFit fit = bowel_fit(&known, &line);
   check(&fit);
+  g_assert_cmpfloat(farthest, <, 2.5);
   spore_curve_clear(&line);
   spore_curve_clear(&known);
   spore_triangle_mesh_clear(&mesh);
@@ -152,12 +163,13 @@ static void test_torus(void) {
   SporeCurve line;
   SporeCentrelineReport report;
   SporeError error = SPORE_ERROR_INIT;
+  double farthest;
   shape_torus(&mesh, 0.06, 0.01, 80, 20);
-  g_assert_false(find(&mesh, NULL, &line, &report, &error));
+  g_assert_false(find(&mesh, NULL, &line, &report, &farthest, &error));
   g_assert_nonnull(strstr(error.message, "ring"));
   double ends[6] = {0.07, 0, 0, 0, 0.07, 0};
   error = (SporeError)SPORE_ERROR_INIT;
-  g_assert_true(find(&mesh, ends, &line, &report, &error));
+  g_assert_true(find(&mesh, ends, &line, &report, &farthest, &error));
   spore_curve_clear(&line);
   spore_triangle_mesh_clear(&mesh);
 }
@@ -168,10 +180,12 @@ static void test_tree(void) {
   SporeCurve line;
   SporeCentrelineReport report;
   SporeError error = SPORE_ERROR_INIT;
+  double farthest;
   bowel_tree(&mesh);
-  if (find(&mesh, NULL, &line, &report, &error)) {
+  if (find(&mesh, NULL, &line, &report, &farthest, &error)) {
     g_assert_cmpfloat(report.cover, <, 0.6);
     g_assert_cmpuint(report.branches, >=, 3);
+    g_assert_cmpfloat(farthest, >, 8);
     spore_curve_clear(&line);
   } else g_assert_nonnull(strstr(error.message, "branches"));
   spore_triangle_mesh_clear(&mesh);

@@ -202,9 +202,16 @@ static void show_curve(const SporeGenerateWork *work, float *places, SporeStageC
   }
 }
 
+/* What the line does not follow is far from it. */
+static void measure_way_to_curve(const SporeGenerateWork *work, SporeQuality *quality) {
+  quality->count = work->mesh.vertex_count;
+  quality->values = scaled(work->curve_way, quality->count, 1, 1e3);
+}
+
 static const SporeGenerateQuality curve_qualities[] = {
     {N_("Radius"), "mm", FALSE, measure_radius_of_curve, show_curve},
     {N_("Bend"), "°", FALSE, measure_bend, show_curve},
+    {N_("Way to the line"), "mm", FALSE, measure_way_to_curve, show_mesh},
 };
 
 static const SporeGenerateType curve_type = {

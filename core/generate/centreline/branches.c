@@ -136,12 +136,15 @@ bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path
   for (size_t i = 0; i < tube->count; i++) search->cost[i] = 1;
   if (!spore_voxel_search_spread(search, path->voxel, path->count, error)) return false;
   if (!path->near) path->near = SPORE_NEW_ARRAY(bool, tube->count);
-  bool room = leftovers_create(&left, search, path) && path->near;
+  if (!path->way) path->way = SPORE_NEW_ARRAY(float, tube->count);
+  bool room = leftovers_create(&left, search, path) && path->near && path->way;
   if (room) {
     measure_path(&left);
     find_feet(&left);
     path->ring = 0;
     path->followed = mark_near(&left);
+    for (size_t i = 0; i < tube->count; i++)
+      path->way[i] = search->from[i] == SPORE_NO_VOXEL ? INFINITY : (float)search->length[i];
     memcpy(path->near, left.seen, tube->count * sizeof *path->near);
   }
   for (uint32_t i = 0; room && i < tube->count; i++) {

@@ -105,10 +105,11 @@ static bool find_path(SporeTubeOrgan *organ, const SporeCentrelineOptions *optio
          spore_voxel_path_find(&organ->path, &organ->tube, options->ends_given ? ends : NULL, report, progress, error);
 }
 
-static bool find(SporeTubeOrgan *organ, const SporeCentrelineOptions *options, SporeCurve *curve,
-                 SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
+static bool find(SporeTubeOrgan *organ, const SporeTriangleMesh *mesh, const SporeCentrelineOptions *options,
+                 SporeCurve *curve, SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
   SporeCurve dense = {0};
-  SporeProgressPart finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.2}, reaching = {progress, 0.9, 0.1};
+  SporeProgressPart finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.2}, reaching = {progress, 0.9, 0.05},
+                    going = {progress, 0.95, 0.05};
   report->components = organ->tube.component_count;
   report->share = organ->tube.share;
   report->inner_wall = organ->inner_wall;
@@ -119,6 +120,7 @@ static bool find(SporeTubeOrgan *organ, const SporeCentrelineOptions *options, S
     place_branches(&dense, report);
     done = refuse_shape(options, report, &organ->path, organ->solid.volume, error) &&
            spore_voxel_path_cover(&organ->path, &organ->tube, &report->cover, &reaching, error) &&
+           (!options->way || spore_voxel_path_ways(&organ->path, &organ->tube, mesh, options->way, &going, error)) &&
            spore_centreline_thin(&dense, options, curve, error);
   }
   if (done && progress && progress->show) progress->show(progress->data, curve->points, curve->count);
@@ -133,7 +135,7 @@ bool spore_centreline_from_mesh(const SporeTriangleMesh *mesh, const SporeCentre
   *curve = (SporeCurve){0};
   *report = (SporeCentrelineReport){0};
   if (!check_options(options, error) || !spore_tube_organ_create(&organ, mesh, progress, error)) return false;
-  bool done = find(&organ, options, curve, report, progress, error);
+  bool done = find(&organ, mesh, options, curve, report, progress, error);
   spore_tube_organ_clear(&organ);
   if (!done) spore_curve_clear(curve);
   report->seconds = (double)(spore_clock_ns() - start) * 1e-9;

@@ -7,6 +7,7 @@
 
 #define SPORE_CENTRELINE_MOST_POINTS 100000u
 #define SPORE_CENTRELINE_TOLERANCE 0.02 /* default */
+#define SPORE_CENTRELINE_FOLLOWED 0.95  /* of the surface: a line with less cover leaves out what matters */
 #define SPORE_CENTRELINE_NAMED 16       /* side branches that a report names */
 
 typedef struct SporeCentrelineOptions {
@@ -15,6 +16,8 @@ typedef struct SporeCentrelineOptions {
   size_t points;     /* of the curve, evenly spaced; 0: the number that the tolerance needs */
   double tolerance;  /* largest distance of a straight segment from the smooth line, and largest error of its radius, as
                         a fraction of the local radius; 0: SPORE_CENTRELINE_TOLERANCE */
+  double *way; /* as many as the mesh has vertices, out: m from each to the curve, through the inside; where no way
+                  leads, the diagonal of the organ; NULL: not wanted */
 } SporeCentrelineOptions;
 
 /* A side branch. It is not part of the curve. */

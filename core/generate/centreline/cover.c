@@ -1,4 +1,7 @@
-/* How much of an organ's surface a path through its middle reaches, by area and through the inside. */
+/* How much of an organ's surface a path through its middle reaches, by area, and how far each place is from the path,
+ * through the inside. */
+#include <math.h>
+
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/generate/centreline/private.h"
@@ -25,4 +28,18 @@ bool spore_voxel_path_cover(const SporeVoxelPath *path, const SporeVoxelTube *tu
   spore_free(points);
   spore_free(triangles);
   return going && (room || spore_generate_no_memory(error));
+}
+
+bool spore_voxel_path_ways(const SporeVoxelPath *path, const SporeVoxelTube *tube, const SporeTriangleMesh *mesh,
+                           double *way, const SporeProgressPart *progress, SporeError *error) {
+  for (size_t i = 0; i < mesh->vertex_count; i++) {
+    if (i % REPORT_EACH == 0 && !spore_progress_part(progress, (double)i / (double)mesh->vertex_count,
+                                                     _("measuring what the line reaches"), error))
+      return false;
+    SporeVec3 p = spore_vec3_load(mesh->vertices + 3 * i);
+    uint32_t voxel = spore_voxel_beside(tube, p);
+    if (voxel == SPORE_NO_VOXEL) voxel = spore_voxel_nearest(tube, p); /* the organ is too thin there */
+    way[i] = fmin((double)path->way[voxel], tube->solid->diagonal);
+  }
+  return true;
 }

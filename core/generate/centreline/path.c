@@ -59,6 +59,7 @@ static uint32_t deepest(const SporeVoxelTube *tube) {
 void spore_voxel_path_clear(SporeVoxelPath *path) {
   spore_free(path->voxel);
   spore_free(path->near);
+  spore_free(path->way);
   *path = (SporeVoxelPath){0};
 }
 

@@ -49,11 +49,20 @@ static uint32_t seen_from(const SporeVoxelTube *tube, SporeVec3 p, int width) {
   return nearest;
 }
 
+/* Within one voxel, or else two, along each axis. */
+static uint32_t nearest_seen(const SporeVoxelTube *tube, SporeVec3 p) {
+  uint32_t voxel = seen_from(tube, p, 1);
+  return voxel == SPORE_NO_VOXEL ? seen_from(tube, p, 2) : voxel;
+}
+
+uint32_t spore_voxel_beside(const SporeVoxelTube *tube, SporeVec3 p) {
+  return nearest_seen(tube, move_inside(tube->solid, p, LIFT * tube->edge));
+}
+
 uint32_t spore_voxel_under(const SporeVoxelTube *tube, SporeVec3 p, uint32_t triangle, bool *within) {
   SporeVec3 outward = spore_vec3_normalise(spore_triangle_across(&tube->solid->mesh, triangle), spore_vec3(0, 0, 0));
   SporeVec3 from = spore_vec3_add_scaled(p, -LIFT * tube->edge, outward);
   SporeVec3 across = spore_vec3_add_scaled(p, LIFT * tube->edge, outward);
   *within = !tube->of_one_piece && spore_bvh_winding(tube->solid->bvh, across) > 0.5;
-  uint32_t voxel = seen_from(tube, from, 1);
-  return voxel == SPORE_NO_VOXEL ? seen_from(tube, from, 2) : voxel;
+  return nearest_seen(tube, from);
 }

@@ -44,6 +44,9 @@ bool spore_passage_open(const SporeVoxelTube *tube, SporeVec3 a, SporeVec3 b);
 /* Voxel of the largest component that is nearest to p, or to the place of the surface that is nearest to p, with no
  * wall between; SPORE_NO_VOXEL: none is near. */
 uint32_t spore_voxel_of_place(const SporeVoxelTube *tube, SporeVec3 p);
+/* Nearest voxel of any component at a place inside, or behind the place of the surface that is nearest, with no wall
+ * between; SPORE_NO_VOXEL: the organ is too thin there. */
+uint32_t spore_voxel_beside(const SporeVoxelTube *tube, SporeVec3 p);
 /* Nearest voxel of any component behind a place of the surface, with no wall between; SPORE_NO_VOXEL: the organ is too
  * thin there. triangle: the one that has the place. *within: the place lies inside of the organ, whose parts overlap.
  */
@@ -60,6 +63,7 @@ typedef struct SporeVoxelPath {
   uint32_t *voxel;                                  /* from one end to the other */
   SporeVoxelStretch beside[SPORE_CENTRELINE_NAMED]; /* where the pieces left out that a report names touch the path */
   bool *near;      /* by voxel of the tube: within two radii of the path, through the inside */
+  float *way;      /* by voxel of the tube: m from the path, through the inside; infinite where none leads */
   double followed; /* share of the largest component's voxels that are near */
   double ring;     /* the farthest along the path, of its length, between the two places that a loop left out joins, if
                       the loop joins none of the middle half */
@@ -74,6 +78,10 @@ bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, con
 /* Share of the surface, by area, behind which the voxels are near the path. */
 bool spore_voxel_path_cover(const SporeVoxelPath *path, const SporeVoxelTube *tube, double *cover,
                             const SporeProgressPart *progress, SporeError *error);
+
+/* Fills options->way of a mesh from the path's. */
+bool spore_voxel_path_ways(const SporeVoxelPath *path, const SporeVoxelTube *tube, const SporeTriangleMesh *mesh,
+                           double *way, const SporeProgressPart *progress, SporeError *error);
 
 /* A surface without its inner walls. */
 typedef struct SporeOuterWall {
