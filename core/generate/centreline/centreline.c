@@ -108,8 +108,8 @@ static bool find_path(SporeTubeOrgan *organ, const SporeCentrelineOptions *optio
 static bool find(SporeTubeOrgan *organ, const SporeTriangleMesh *mesh, const SporeCentrelineOptions *options,
                  SporeCurve *curve, SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
   SporeCurve dense = {0};
-  SporeProgressPart finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.2}, reaching = {progress, 0.9, 0.05},
-                    going = {progress, 0.95, 0.05};
+  SporeProgressPart finding = {progress, 0.5, 0.2}, refining = {progress, 0.7, 0.2},
+                    reaching = {progress, 0.9, options->way ? 0.05 : 0.1}, going = {progress, 0.95, 0.05};
   report->components = organ->tube.component_count;
   report->share = organ->tube.share;
   report->inner_wall = organ->inner_wall;

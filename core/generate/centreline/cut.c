@@ -6,11 +6,13 @@
 #include "core/base/memory.h"
 #include "core/generate/centreline/search.h"
 
-#define BESIDE 3.0  /* radii along the path from what is left out: the neck lies within */
-#define AHEAD 2.5   /* radii along the path on both sides of a neck: there the path is in the middle of a loop */
-#define NARROW 0.95 /* of the least of the largest depths on both sides: a neck is narrower */
-#define HALF 0.9    /* voxels: half the thickness of a cut, which no step from voxel to voxel crosses */
-#define REACH 4.0   /* radii from the narrowest place: a neck is no longer along the loops */
+#define BESIDE 3.0 /* radii along the path from what is left out: the neck lies within */
+#define AHEAD 2.5  /* radii along the path on both sides of a neck: there the path is in the middle of a loop */
+#define NARROW 0.9 /* of the least of the largest depths on both sides: a neck is narrower */
+#define HALF 0.9   /* voxels: half the thickness of a cut, which no step from voxel to voxel crosses */
+#define LOOP 3.0   /* sums of two depths along the path: farther places are of two loops */
+#define SAME 0.6   /* sums of two depths: nearer places are in one section */
+#define REACH 4.0  /* radii from the narrowest place: a neck is no longer along the loops */
 
 /* The path with its measures. */
 typedef struct Way {
@@ -112,6 +114,30 @@ bool spore_voxel_path_narrowest(const SporeVoxelPath *path, const SporeVoxelTube
   if (!way_create(&way, tube, path)) return spore_generate_no_memory(error);
   double radius = mean_depth(&way);
   find_neck(&way, AHEAD * radius, way.along[path->count - 1] - AHEAD * radius, radius, narrow);
+  spore_free(way.along);
+  return true;
+}
+
+/* Whether two places of the path, farther from each other along it than a loop is thick, lie in the same section. */
+static bool doubles_back(const Way *way) {
+  for (size_t i = 0; i < way->path->count; i++) {
+    double depth = depth_at(way, i);
+    for (size_t k = i + 1; k < way->path->count; k++) {
+      double both = depth + depth_at(way, k);
+      if (way->along[k] - way->along[i] > LOOP * both &&
+          spore_vec3_distance(middle_at(way, i), middle_at(way, k)) < SAME * both)
+        return true;
+    }
+  }
+  return false;
+}
+
+bool spore_voxel_path_is_sound(const SporeVoxelPath *path, const SporeVoxelTube *tube, const bool *cut, bool *sound,
+                               SporeError *error) {
+  Way way;
+  if (!way_create(&way, tube, path)) return spore_generate_no_memory(error);
+  *sound = !doubles_back(&way);
+  for (size_t i = 0; i < path->count; i++) *sound = *sound && !cut[path->voxel[i]];
   spore_free(way.along);
   return true;
 }

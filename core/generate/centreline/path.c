@@ -13,6 +13,7 @@ static const double powers[] = {3, 6, 12};
 #define POWERS (sizeof powers / sizeof *powers)
 #define MUCH 0.85    /* of the largest volume of a path: paths with more than this are compared by length */
 #define ENOUGH 0.995 /* covered share above which no other power is tried */
+#define LEAST 0.4    /* covered share below which the organ is no tube, and what is narrow in it no neck */
 #define LONGER 2.0   /* mean radii by which a branch must be longer than the end that it replaces: a diameter */
 #define MOST_CHANGES 4
 #define CUT 1e9 /* what a section that is closed costs, over what it would cost */
@@ -169,13 +170,14 @@ static bool find_by(SporeVoxelSearch *search, double power, const uint32_t *ends
 
 /* Whether another path is better: it follows more, and between given ends, where nothing says that all of the organ is
  * meant, it also passes no narrower neck. */
-static bool is_better(const SporeVoxelTube *tube, const SporeVoxelPath *other, const SporeVoxelPath *path, bool given,
-                      bool *better, SporeError *error) {
+static bool is_better(const SporeVoxelSearch *search, const SporeVoxelPath *other, const SporeVoxelPath *path,
+                      bool given, bool *better, SporeError *error) {
   double narrow[2];
   *better = other->followed > path->followed + GAIN;
+  if (*better && !spore_voxel_path_is_sound(other, search->tube, search->cut, better, error)) return false;
   if (!*better || !given) return true;
-  if (!spore_voxel_path_narrowest(other, tube, &narrow[0], error) ||
-      !spore_voxel_path_narrowest(path, tube, &narrow[1], error))
+  if (!spore_voxel_path_narrowest(other, search->tube, &narrow[0], error) ||
+      !spore_voxel_path_narrowest(path, search->tube, &narrow[1], error))
     return false;
   *better = narrow[0] > narrow[1];
   return true;
@@ -195,7 +197,7 @@ static bool try_cut(SporeVoxelSearch *search, double power, const uint32_t *ends
   bool done = spore_voxel_path_mark_neck(path, search->tube, piece, search->cut, &marked, error);
   if (done && marked)
     done = find_by(search, power, ends, &other, &left, clean, error) &&
-           is_better(search->tube, &other, path, ends, better, error);
+           is_better(search, &other, path, ends, better, error);
   if (done && *better) {
     spore_voxel_path_clear(path);
     *path = other, *report = left;
@@ -238,7 +240,8 @@ bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, con
       *path = way, *report = left, power = powers[i];
     } else spore_voxel_path_clear(&way);
   }
-  done = done && (path->followed >= ENOUGH || cut_necks(&search, power, ends, path, report, &clean, error));
+  done = done && (path->followed >= ENOUGH || path->followed < LEAST ||
+                  cut_necks(&search, power, ends, path, report, &clean, error));
   spore_voxel_search_clear(&search);
   if (!done) spore_voxel_path_clear(path);
   return done;

@@ -39,6 +39,10 @@ bool spore_voxel_search_leftovers(SporeVoxelSearch *search, SporeVoxelPath *path
  * out (its number in the report). *marked: there is one. */
 bool spore_voxel_path_mark_neck(const SporeVoxelPath *path, const SporeVoxelTube *tube, size_t piece, bool *cut,
                                 bool *marked, SporeError *error);
+/* *sound: the path passes no section that is cut, as it must where that is no neck between loops, and does not come
+ * back to where it was. */
+bool spore_voxel_path_is_sound(const SporeVoxelPath *path, const SporeVoxelTube *tube, const bool *cut, bool *sound,
+                               SporeError *error);
 /* Depth of the path's narrowest neck, over the lesser of the largest depths on both sides; nearly 1 without a neck. */
 bool spore_voxel_path_narrowest(const SporeVoxelPath *path, const SporeVoxelTube *tube, double *narrow,
                                 SporeError *error);
