@@ -94,6 +94,7 @@ typedef struct SporeDynamics {
   /* Linear iterations that take as much work as the factor that P could be and is not: where so many do not solve a
    * system, the step is better taken again with the factor. 0: there is no such factor. May be NULL: 0. */
   size_t (*factor_patience)(void *data);
+  size_t patience; /* times the linear iterations after which a step with much left of its load is hopeless; 0: once */
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);

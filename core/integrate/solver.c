@@ -83,10 +83,10 @@ static const SporeParameter parameters[] = {
      .initial = {20},
      .offset = offsetof(SporeSolverFields, newton_iterations),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Most Newton iterations that a step may take; Broyden's count half. A step that is not solved is taken "
-               "again in "
-               "smaller ones, which may take three times as many, all together. A step of static may take 16 times as "
-               "many, since a body may have far to go, and is not taken again.")},
+     .doc =
+         N_("Most Newton iterations that a step may take; Broyden's count half. A step that is not solved is taken "
+            "again with three times as many, then in smaller ones, which may take three times as many, all together. "
+            "A step of static may take 16 times as many, since a body may have far to go, and is not taken again.")},
     {.name = "linear_iterations",
      .type = SPORE_INTEGER,
      .unit = "",

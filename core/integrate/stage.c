@@ -227,6 +227,7 @@ static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeS
                                          double *r, double *scratch) {
   const SporeDynamics *dynamics = ((const Stage *)system->data)->dynamics;
   SporeNonlinearOptions options = {(size_t)fields->newton_iterations, fields->tolerance};
+  options.patience = dynamics->patience;
   if (dynamics->factor_patience) options.linear_patience = dynamics->factor_patience(dynamics->data);
   bool broyden = fields->nonlinear == SPORE_NONLINEAR_BROYDEN ||
                  (fields->nonlinear == SPORE_NONLINEAR_AUTOMATIC && dynamics->factor_cost(dynamics->data) > 0);

@@ -108,6 +108,47 @@ static bool are_affordable(const Study *study, uint64_t begun_ns) {
   return 1e-9 * (double)(spore_clock_ns() - begun_ns) <= all_s / count;
 }
 
+/* Whether a world was not made for want of memory, or since the study was cancelled: then the study ends, too. */
+static bool is_fatal(Study *study, const SporeError *refusal) {
+  bool fatal = refusal->code == SPORE_ERROR_CANCELLED || refusal->code == SPORE_ERROR_MEMORY;
+  if (fatal && study->error) *study->error = *refusal;
+  return fatal;
+}
+
+/* Runs the case. False: cancelled, or no memory. */
+static bool push_world(Study *study, SporeWorld *world, const SporePush *push, SporePushLength length,
+                       SporePushRun *run) {
+  if (!spore_push_run(study->scene, world, push, length, run)) return no_memory(study->error);
+  if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  return true;
+}
+
+static bool has_remedy(const SporePush *push) { return push->stiffer_contacts > 0 || push->smaller_steps > 0; }
+
+/* Runs the case again with its remedy. False: cancelled, or no memory. */
+static bool try_remedy(Study *study, const SporePush *push, SporeStabilityCase *into) {
+  SporePush mended = *push;
+  SporePushLength length = length_of(study, push);
+  if (push->stiffer_contacts > 0) mended.change.contact *= push->stiffer_contacts;
+  else mended.change.time_step /= push->smaller_steps, length.steps *= (size_t)push->smaller_steps;
+  SporeError refusal = SPORE_ERROR_INIT;
+  SporeWorld *world = study->scene->make(study->scene->data, &mended.change, &refusal);
+  if (!world) return !is_fatal(study, &refusal);
+  SporePushRun run;
+  char detail[sizeof into->detail];
+  bool done = push_world(study, world, &mended, length, &run);
+  if (done && run.out_of_time) {
+    char what[200];
+    snprintf(what, sizeof what, _("remedy of: %s"), _(push->label));
+    leave_out(study, _("no time; give it more by --seconds"), what);
+  } else if (done && spore_push_judge(world, &mended, &run, detail, sizeof detail) != SPORE_STABILITY_FAILED) {
+    into->verdict = SPORE_STABILITY_RECOVERED;
+    spore_push_add_remedy(push, into->detail, sizeof into->detail);
+  }
+  study->scene->drop(study->scene->data, world);
+  return done;
+}
+
 /* Runs the case in the world. False: cancelled, or no memory. */
 static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   SporeStabilityReport *report = study->report;
@@ -115,27 +156,22 @@ static bool run_case(Study *study, SporeWorld *world, const SporePush *push) {
   SporePushRun run;
   uint64_t begun_ns = spore_clock_ns();
   study->spent |= push->jump != SPORE_JUMP_NONE;
-  if (!spore_push_run(study->scene, world, push, length_of(study, push), &run)) return no_memory(study->error);
-  if (spore_world_cancelled(world)) return spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  if (!push_world(study, world, push, length_of(study, push), &run)) return false;
   if (run.out_of_time) {
     leave_out(study, _("no time; give it more by --seconds"), _(push->label));
     return true;
   }
   *into = (SporeStabilityCase){.name = push->name, .label = push->label};
   into->verdict = spore_push_judge(world, push, &run, into->detail, sizeof into->detail);
-  if (report->case_count++ > 0) return true;
+  if (report->case_count++ > 0) {
+    bool again = has_remedy(push) && spore_push_fails_by_contacts(world, push, &run);
+    return !again || try_remedy(study, push, into);
+  }
   report->contacts = run.contacts;
   bool longer = run.steps > report->steps;
   report->met = run.met_at > 0 && (!longer || are_affordable(study, begun_ns));
   if (report->met) report->steps = run.steps;
   return true;
-}
-
-/* Whether a world was not made for want of memory, or since the study was cancelled: then the study ends, too. */
-static bool is_fatal(Study *study, const SporeError *refusal) {
-  bool fatal = refusal->code == SPORE_ERROR_CANCELLED || refusal->code == SPORE_ERROR_MEMORY;
-  if (fatal && study->error) *study->error = *refusal;
-  return fatal;
 }
 
 /* A scene that is refused with the remedy before it runs went as it should. */

@@ -39,9 +39,11 @@ typedef struct SporeStabilityOptions {
 } SporeStabilityOptions;
 
 typedef enum SporeStabilityVerdict {
-  SPORE_STABILITY_STABLE,    /* every step was solved as the scene is written, and the energy bounded */
-  SPORE_STABILITY_RECOVERED, /* the program met trouble, said so, and went on, finite and with bounded energy */
-  SPORE_STABILITY_REFUSED,   /* the program refused to run it, with the remedy */
+  SPORE_STABILITY_STABLE, /* every step was solved as the scene is written, and the energy bounded */
+  /* The program met trouble, said so, and went on, finite and with bounded energy; or contacts did not hold what the
+   * case loads them with, the program said so, and as much stiffer as it said they do. */
+  SPORE_STABILITY_RECOVERED,
+  SPORE_STABILITY_REFUSED, /* the program refused to run it, with the remedy */
   SPORE_STABILITY_FAILED
 } SporeStabilityVerdict;
 /* "stable", "recovered", "recovered" for what was refused, "failed". Translatable. */

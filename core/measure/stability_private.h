@@ -37,6 +37,10 @@ typedef struct SporePush {
   const char *name, *label; /* label: translatable */
   bool quick;               /* also run where little time is given */
   bool deep; /* by the case itself bodies come deep into each other, or faster than contacts can stop them */
+  /* Where contacts alone fail, the case is run again as the program advises, with contacts so many times as stiff, or
+   * steps so many times as small, as the case makes their load or their speed larger. 0: it makes neither larger, or
+   * changes contacts or steps itself. */
+  double stiffer_contacts, smaller_steps;
   SporeStabilityChange change;
   SporePushInput input;
   SporePushStart start;
@@ -72,6 +76,11 @@ bool spore_push_run(const SporeStabilityScene *scene, SporeWorld *world, const S
 /* stability_verdict.c: judges the run, and writes the detail. */
 SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush *push, const SporePushRun *run,
                                        char *detail, size_t size);
+
+/* Whether contacts that do not hold are all that fails the run, which is over. */
+bool spore_push_fails_by_contacts(const SporeWorld *world, const SporePush *push, const SporePushRun *run);
+/* Adds to the detail that with the remedy of the case the run is sound. */
+void spore_push_add_remedy(const SporePush *push, char *detail, size_t size);
 
 /* stability_start.c. Whether the case can be had in this world. */
 bool spore_start_is_possible(const SporeWorld *world, SporePushStart start);

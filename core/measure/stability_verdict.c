@@ -111,6 +111,29 @@ static void add_stable(Detail *detail, const SporeMonitor *monitor, const SporeP
   if (parted > 0) add(detail, _("links, holds or springs that gave way: %llu"), parted);
 }
 
+static bool gains(const SporePushRun *run) { return run->judged && run->gain > GAIN; }
+
+bool spore_push_fails_by_contacts(const SporeWorld *world, const SporePush *push, const SporePushRun *run) {
+  bool passed = false;
+  for (size_t i = 0; i < spore_world_unsolved_count(world); i++) {
+    SporeUnsolved entry = spore_world_unsolved(world, i);
+    if (!fails(&entry, push)) continue;
+    if (entry.kind != SPORE_UNSOLVED_PASSED) return false;
+    passed = true;
+  }
+  return passed && run->finite && !gains(run);
+}
+
+void spore_push_add_remedy(const SporePush *push, char *text, size_t size) {
+  size_t used = strlen(text);
+  bool stiffer = push->stiffer_contacts > 0;
+  int length = snprintf(text + used, size - used,
+                        stiffer ? _("; with contacts %g times as stiff they hold")
+                                : _("; with steps %g times as small they hold"),
+                        stiffer ? push->stiffer_contacts : push->smaller_steps);
+  if (length < 0 || used + (size_t)length >= size) text[used] = '\0';
+}
+
 SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush *push, const SporePushRun *run,
                                        char *text, size_t size) {
   Detail detail = {.text = text, .size = size};
@@ -120,7 +143,7 @@ SporeStabilityVerdict spore_push_judge(const SporeWorld *world, const SporePush 
     add(&detail, _("%s: the state is not finite after %zu steps: take a smaller time_step"),
         name_of(world, run->fastest), run->steps);
   add_entries(&detail, world, push, run->steps, true);
-  if (run->judged && run->gain > GAIN)
+  if (gains(run))
     add(&detail, _("%s: energy %.2g %% above start and work: take a smaller time_step or a method that damps"),
         name_of(world, run->fastest), 100 * run->gain);
   SporeStabilityVerdict verdict = detail.reasons > 0 ? SPORE_STABILITY_FAILED : SPORE_STABILITY_RECOVERED;

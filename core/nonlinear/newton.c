@@ -53,8 +53,10 @@ static bool direction(const SporeSystem *system, const SporeNonlinearOptions *op
 
 /* Whether no direction leads anywhere: a step that asks for what cannot be would take all iterations that it may, and
  * each of them many linear ones. */
-static bool is_hopeless(const SporeConvergence *test, const SporeNonlinearResult *result) {
-  return result->linear_iterations > SPORE_HOPELESS_WORK && test->least > SPORE_HOPELESS * test->scale_r;
+static bool is_hopeless(const SporeNonlinearOptions *options, const SporeConvergence *test,
+                        const SporeNonlinearResult *result) {
+  size_t most = (options->patience > 0 ? options->patience : 1) * SPORE_HOPELESS_WORK;
+  return result->linear_iterations > most && test->least > SPORE_HOPELESS * test->scale_r;
 }
 
 /* What the method does where it creeps. */
@@ -121,7 +123,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   if (system->weigh) spore_differences_begin(&creep.differences, system, scratch + 9 * n);
   memcpy(best, x, n * sizeof *x);
   double previous = 0, near = spore_convergence_near(&test, system);
-  while (!result.converged && result.iterations < options->iterations && !is_hopeless(&test, &result) &&
+  while (!result.converged && result.iterations < options->iterations && !is_hopeless(options, &test, &result) &&
          !spore_cancel_asked(system->cancel)) {
     const double *before = result.iterations > 0 ? from : NULL;
     if (before || !options->linearised) linearise(system, &creep, x, before, &result);

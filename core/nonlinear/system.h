@@ -60,6 +60,7 @@ typedef struct SporeNonlinearOptions {
   /* Linear iterations after which Newton's method ends where the linear solver meets its limit: another solver would
    * have taken less work. 0: it never ends for that. */
   size_t linear_patience;
+  size_t patience; /* times SPORE_HOPELESS_WORK that may be put into what seems hopeless; 0: once */
 } SporeNonlinearOptions;
 
 typedef struct SporeNonlinearResult {

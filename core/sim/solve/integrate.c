@@ -13,7 +13,8 @@ static void limit_iterations(const SporeEffort *effort, size_t behind, const Spo
                              SporeSolverFields *fields) {
   assert(solver->newton_iterations >= 1);
   int64_t left = effort->iterations > behind ? (int64_t)(effort->iterations - behind) : 1;
-  fields->newton_iterations = left < solver->newton_iterations ? left : solver->newton_iterations;
+  int64_t most = (effort->patience > 0 ? (int64_t)effort->patience : 1) * solver->newton_iterations;
+  fields->newton_iterations = left < most ? left : most;
 }
 
 /* Whether an attempt is still worth its next part, after a part with this result. */
@@ -54,6 +55,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   system.balance = kind == SPORE_INTEGRATOR_STATIC && spore_island_system_is_held(&system);
   system.meets = kind == island->integrator && spore_island_system_can_meet(&system);
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  if (effort) dynamics.patience = effort->patience;
   const SporeIntegrator *integrator = spore_integrator(kind);
   const double *q0 = island->q0, *v0 = start_velocity(world, island, kind);
   double *q1 = island->q1, *v1 = island->v1;

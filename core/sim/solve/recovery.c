@@ -11,6 +11,7 @@
 #include "core/sim/solve/island_system.h"
 
 #define SUBSTEPS_MAXIMUM 8
+#define HARD_SYSTEM 300 /* linear iterations: to solve several such systems more is more work than a step is worth */
 /* A solution that misses its tolerance by no more than MISS_TO_STAND is counted and reported, but accepted: another
  * attempt would cost more than it improves. So is a solution that misses no more than MISS_OF_LOAD of the load and has
  * not gained energy. */
@@ -135,10 +136,14 @@ static bool pauses(SporeWorld *world, const SporeIsland *island) {
   return paused;
 }
 
+static uint32_t longer_pause(uint32_t last, bool helped) {
+  return helped ? 0 : last == 0 ? 1 : last < PAUSE_MAXIMUM ? 2 * last : PAUSE_MAXIMUM;
+}
+
 static void set_pause(SporeWorld *world, const SporeIsland *island, bool helped) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    body->pauses = helped ? 0 : body->pauses == 0 ? 1 : body->pauses < PAUSE_MAXIMUM ? 2 * body->pauses : PAUSE_MAXIMUM;
+    body->pauses = longer_pause(body->pauses, helped);
     body->pause = body->pauses;
   }
 }
@@ -241,18 +246,56 @@ static bool despairs(SporeWorld *world, const SporeIsland *island) {
   return despairs;
 }
 
-/* Tries smaller and smaller steps, as long as the iterations last. Once an attempt was worth a step, hopeless attempts
- * are given up early. In the end the best attempt is accepted: a valid state that is not solved to tolerance is better
- * than a frozen body. False: the step is hopeless. */
+/* Patience that did not help is not had again at once, as with smaller steps. */
+static bool is_patient(SporeWorld *world, const SporeIsland *island) {
+  bool patient = true;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
+    if (body->impatient > 0) patient = false, body->impatient--;
+  }
+  return patient;
+}
+
+static void set_patience(SporeWorld *world, const SporeIsland *island, bool helped) {
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
+    body->impatience = longer_pause(body->impatience, helped);
+    body->impatient = body->impatience;
+  }
+}
+
+/* Takes the step as a whole, with as many iterations as all smaller steps may take together: what is stiff and buckles
+ * needs them in each of the smaller steps, too. Not where it hardly gets one linear system solved. */
+static bool try_patiently(SporeWorld *world, SporeIsland *island, Best *best) {
+  const SporeStepResult *first = &island->result;
+  bool hard = first->linear_iterations > HARD_SYSTEM * first->newton_iterations;
+  bool ran_out = first->newton_iterations >= (size_t)world->solver.newton_iterations ||
+                 first->residual > SPORE_HOPELESS; /* else more iterations do not help */
+  if (island->trouble != SPORE_TROUBLE_NOT_CONVERGED || hard || !ran_out || spore_island_is_hopeless(world, island) ||
+      !is_patient(world, island))
+    return false;
+  SporeEffort effort = {.iterations = EFFORT * (size_t)world->solver.newton_iterations * island->substeps,
+                        .hopeless = HUGE_VAL,
+                        .patience = EFFORT};
+  try_again(world, island, 1, &effort);
+  bool helped = stands(world, island, MISS_OF_LOAD);
+  set_patience(world, island, helped);
+  if (!helped) remember_best(world, island, best);
+  return helped;
+}
+
+/* Tries the step with patience, then smaller and smaller steps, as long as the iterations last. Once an attempt was
+ * worth a step, hopeless attempts are given up early. In the end the best attempt is accepted: a valid state that is
+ * not solved to tolerance is better than a frozen body. False: the step is hopeless. */
 static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   assert(world->solver.newton_iterations >= 1);
-  bool helped = false;
   Best best = {.worth = WORTH_NOTHING, .residual = HUGE_VAL, .least = HUGE_VAL};
   remember_best(world, island, &best);
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
   size_t iterations = (spore_island_is_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
   SporeEffort effort = {.iterations = iterations};
   if (!(island->result.residual <= SPORE_HOPELESS)) effort.linear = SPORE_HOPELESS_WORK;
+  bool helped = try_patiently(world, island, &best);
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped && effort.linear != 1; substeps *= 2) {
     if (spore_cancel_asked(world->cancel)) return true;
     if (best.worth > WORTH_GAINED && effort.iterations < least * substeps * island->substeps) break;

@@ -262,6 +262,7 @@ typedef struct SporeEffort {
   size_t iterations; /* nonlinear iterations left; a part of a step takes at least one */
   size_t linear;     /* linear iterations left, of a step whose first attempt was hopeless; 0: as many as it takes */
   double hopeless;   /* relative residual: an attempt with a larger one is given up */
+  size_t patience;   /* times the iterations, nonlinear and linear, that a part may take otherwise; 0: no more */
   bool given_up;     /* the attempt ended early: q1 and v1 are the state after some of its parts */
 } SporeEffort;
 /* Takes the island through one step of the world in `substeps` parts, from its q0 and v0 to q1 and v1. Overwrites the

@@ -70,6 +70,9 @@ static void report_mended(SporeWorld *world, const SporeIsland *island) {
     spore_world_report(world, _("%s: %s (residual %.1e); %s"), world->bodies[island->verdict.body].name,
                        spore_unsolved_cause(unsolved_cause(island)), island->verdict.residual,
                        spore_unsolved_remedy(unsolved_cause(island)));
+  else if (island->mending_substeps == 1)
+    spore_world_report(world, _("%s: a step was taken again with more iterations, because %s"), body->name,
+                       cause(island->trouble));
   else
     spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), body->name,
                        (unsigned long long)island->mending_substeps, cause(island->trouble));
