@@ -713,6 +713,16 @@ def levels_change_by_themselves_and_are_listed():
 
 
 @check
+def shipped_levels_follow_the_probe():
+    """The shipped scene with levels is fine while the probe is near, and coarser before and after; the change of the README is in its list."""
+    answer = report("run", SCENES / "levels.spore", "--time", 6)
+    changes = answer["level_changes"]
+    assert [(c["from"], c["to"]) for c in changes] == [("fine", "medium"), ("medium", "fine"), ("fine", "medium"), ("medium", "coarse")], changes
+    said = f'{changes[1]["time_s"]:.4g} s: {changes[1]["body"]}: level medium to fine: {changes[1]["reason"]}'
+    assert said in (ROOT / "README.md").read_text(), said
+
+
+@check
 def levels_of_a_body_that_does_not_move_are_not_used():
     """A body with levels whose role is changed so that physics does not move it runs without them."""
     for role in ("unmovable", "active"):

@@ -338,6 +338,34 @@ static void progressed(SporeJob *job) {
   if (watch.most > 0) spore_job_cancel(job);
 }
 
+/* Sets of spheres are an option of the study: three are compared, the largest with itself at half the step; a scene
+ * whose spheres were not generated from a mesh is refused with the remedy. */
+static void test_spheres(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeAccuracyWork *work = short_work(fixture);
+  work->spheres = TRUE;
+  g_assert_false(spore_accuracy_work_run(work, NULL, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  g_assert_nonnull(strstr(error->message, "generate spheres"));
+  g_clear_error(&error);
+  spore_accuracy_work_free(work);
+  SporeDocument *rigid = load(fixture->schema, SPORE_SCENES "/table1-rigid.spore");
+  for (int on = 0; on <= 1; on++) {
+    work = spore_accuracy_work_new(rigid);
+    g_array_append_val(work->methods, ((SporeAccuracyMethod){SPORE_INTEGRATOR_IMPLICIT_EULER, -1, -1}));
+    work->time_s = 0.02;
+    work->spheres = on;
+    spore_accuracy_work_run(work, NULL, &error);
+    g_assert_no_error(error);
+    const SporeAccuracyReport *report = work->study->report;
+    g_assert_cmpuint(report->sphere_count, ==, on ? 3 : 0);
+    for (gsize i = 1; i < report->sphere_count; i++)
+      g_assert_cmpuint(report->spheres[i].count, >, report->spheres[i - 1].count);
+    spore_accuracy_work_free(work);
+  }
+  spore_document_free(rigid);
+}
+
 /* A study that would take long tells how far it is, and is over for both sides after a cancel. */
 static void test_cancel(Fixture *fixture, gconstpointer data) {
   SporeAccuracyWork *work = spore_accuracy_work_new(fixture->document);
@@ -387,6 +415,7 @@ int main(int argc, char **argv) {
   ADD("one_body", test_one_body);
   ADD("unstable", test_unstable);
   ADD("level", test_level);
+  ADD("spheres", test_spheres);
   ADD("cancel", test_cancel);
   ADD("plan_table", test_plan_table);
   return g_test_run();

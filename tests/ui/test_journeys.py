@@ -1042,7 +1042,7 @@ def needle_stitches():
 def levels_change_while_it_runs():
     """an author changes how finely a body is made while it runs: time goes on, the view says the level, and undo goes back."""
     scene = folder("idle") / "levels.spore"  # no probe dents the ovary, which may refuse a level at that moment
-    scene.write_text((SCENES / "levels.spore").read_text().replace(' device="recording"', ""))
+    scene.write_text((SCENES / "levels.spore").read_text().replace(' device="recording"', "").replace(' automatic="distance"', ""))
     for assets in ("organs", "instruments", "plate4-deformed-ovary"):
         shutil.copytree(SCENES / assets, scene.parent / assets)
     with start(scene) as editor:

@@ -46,11 +46,14 @@ gboolean spore_accuracy_work_run(gpointer data, const SporeProgress *progress, G
   SporeAccuracyWork *work = data;
   SporeWorkPlace place;
   spore_work_place_init(&place, progress);
+  static const double factors[] = {0.5, 1, 2};
   int levels[SPORE_LOD_COUNT];
   SporeAccuracyOptions options = {.body = work->body,
                                   .methods = (const SporeAccuracyMethod *)(gconstpointer)work->methods->data,
                                   .method_count = work->methods->len,
                                   .levels = levels,
+                                  .spheres = factors,
+                                  .sphere_count = work->spheres ? G_N_ELEMENTS(factors) : 0,
                                   .time_s = work->time_s,
                                   .full = work->full,
                                   .cancel = &place.cancel,

@@ -21,6 +21,7 @@ typedef struct SporeAccuracyWork {
   char *body;                /* NULL: all that physics moves */
   GArray *methods;           /* of SporeAccuracyMethod; empty: chosen by what the bodies allow */
   gboolean levels;           /* each level of detail that the body, or any body, has */
+  gboolean spheres;          /* sets of spheres of half, the same and twice as many, generated anew */
   double time_s;             /* 0: as the study chooses */
   gboolean full;             /* nothing is cut to fit the time */
   SporeAccuracyStudy *study; /* out; taken by setting it to NULL */

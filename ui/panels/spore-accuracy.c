@@ -16,7 +16,8 @@
 struct _SporeAccuracyPanel {
   GtkBox parent;
   GtkWidget *job_bar, *sentence, *stale, *point, *plot, *details;
-  GtkWidget *body, *time, *full, *levels, *integrators, *nonlinear, *linear; /* options; the last three hold checks */
+  GtkWidget *body, *time, *full, *levels, *spheres, *integrators, *nonlinear,
+      *linear; /* options; the last three hold checks */
   SporeEditorDocument *document;
   guint update; /* idle */
   gboolean filling;
@@ -103,6 +104,7 @@ static SporeAccuracyWork *new_work(SporeAccuracyPanel *self) {
   work->body = g_strdup(chosen_body(self));
   work->levels =
       gtk_widget_get_sensitive(self->levels) && gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(self->levels));
+  work->spheres = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(self->spheres));
   work->time_s = gtk_spin_button_get_value(GTK_SPIN_BUTTON(self->time));
   work->full = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(self->full));
   choose_methods(self, work->methods);
@@ -146,7 +148,8 @@ static void show_study(SporeAccuracyPanel *self) {
   gtk_widget_set_visible(self->plot, study != NULL);
   g_autofree char *head = study ? spore_accuracy_describe(study->report) : g_strdup("");
   g_autofree char *tail = study ? spore_accuracy_describe_methods(study->report) : g_strdup("");
-  g_autofree char *details = g_strconcat(head, tail, NULL);
+  g_autofree char *spheres = study ? spore_accuracy_describe_spheres(study->report) : g_strdup("");
+  g_autofree char *details = g_strconcat(head, tail, spheres, NULL);
   set_text(self->details, g_strchomp(details));
   set_text(self->sentence, study ? study->report->sentence
                                  : _("Measure what each method and step costs in this scene, and how wrong it is"));
@@ -257,6 +260,7 @@ static void spore_accuracy_class_init(SporeAccuracyPanelClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, time);
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, full);
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, levels);
+  gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, spheres);
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, integrators);
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, nonlinear);
   gtk_widget_class_bind_template_child(widget, SporeAccuracyPanel, linear);
