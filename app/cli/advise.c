@@ -163,18 +163,20 @@ static char *reason_of(const Advice *advice, const SporeEvidence *evidence, Spor
   if (verdict == SPORE_VERDICT_EFFECT)
     return g_strdup_printf(_("nothing else moves otherwise without it; %.0f %% of a step is saved"), 100 * share);
   if (verdict == SPORE_VERDICT_STILL)
-    return g_strdup_printf(_("it moves by %.2g of its length at most, and nothing else moves otherwise where it stands "
-                             "still; %.0f %% of a step is saved"),
-                           evidence->own_motion, 100 * share);
+    return g_strdup_printf(
+        _("it moves by %.2g %% of its length at most, and nothing else moves otherwise where it stands "
+          "still; %.0f %% of a step is saved"),
+        100 * evidence->own_motion, 100 * share);
   if (verdict == SPORE_VERDICT_COARSE)
     return g_strdup_printf(_("nothing else moves otherwise at its coarsest level; %.0f %% of a step is saved"),
                            100 * share);
   if (out->influence.rms > evidence->floor && out->influence.worst_body != SPORE_NO_BODY)
-    return g_strdup_printf(_("without it \"%s\" is up to %.2g of its length elsewhere"),
+    return g_strdup_printf(_("without it \"%s\" is up to %.2g %% of its length elsewhere"),
                            spore_world_body_name(advice->run->simulation->world, out->influence.worst_body),
-                           out->influence.worst);
+                           100 * out->influence.worst);
   if (out->influence.force > evidence->force_floor)
     return g_strdup_printf(_("without it hands feel %.2g N less or more"), out->influence.force);
+  if (!(out->saved_us > 0)) return g_strdup(_("leaving it out saves nothing"));
   return g_strdup_printf(_("leaving it out saves %.1f %% of a step, which is not worth it"),
                          100 * out->saved_us / evidence->step_us);
 }
@@ -209,7 +211,7 @@ static SporeVerdict report_element(Advice *advice, const char *name, const Spore
   for (int k = 0; k < SPORE_VERDICT_COUNT; k++) report_form(cli, spore_verdict_names[k], &evidence->forms[k]);
   spore_cli_close_array(cli);
   spore_cli_close(cli);
-  g_autofree char *influence = out->tried ? g_strdup_printf("%.2e", out->influence.rms) : g_strdup("-");
+  g_autofree char *influence = out->tried ? g_strdup_printf("%.2g %%", 100 * out->influence.rms) : g_strdup("-");
   g_autofree char *cost = out->tried ? g_strdup_printf("%.2f us", out->saved_us) : g_strdup("-");
   spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, name, spore_verdict_names[verdict], influence, cost, reason);
   return verdict;
@@ -260,9 +262,9 @@ static gboolean advise(Advice *advice, GError **error) {
     SporeCli *cli = advice->cli;
     int width = spore_cli_body_width(advice->run->simulation->world);
     spore_cli_say(cli,
-                  _("noise floor: halving the step, or a start that is a little off, moves the others by %.2e of "
+                  _("noise floor: halving the step, or a start that is a little off, moves bodies by %.2g %% of "
                     "their length, and hands feel %.2g N of it\n"),
-                  floor.floor, floor.force_floor);
+                  100 * floor.floor, floor.force_floor);
     spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, _("body"), _("verdict"), _("influence"), _("cost"), _("why"));
     spore_cli_open_array(cli, "elements");
     for (gsize k = 0; k < count; k++)

@@ -60,7 +60,7 @@ static void report_assets(SporeCli *cli, const GArray *needs) {
   }
   spore_cli_close_array(cli);
   if (needs->len > 0)
-    spore_cli_say(cli, _("files: %u simulated (%.3g kB), %u only drawn (%.3g kB)\n"), count[SPORE_ASSET_SIMULATED],
+    spore_cli_say(cli, _("files: %u simulated (%.1f kB), %u only drawn (%.1f kB)\n"), count[SPORE_ASSET_SIMULATED],
                   1e-3 * bytes[SPORE_ASSET_SIMULATED], count[SPORE_ASSET_DRAWN], 1e-3 * bytes[SPORE_ASSET_DRAWN]);
 }
 
@@ -81,7 +81,7 @@ static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, 
   spore_cli_number(cli, "saves", NAN);
   spore_cli_number(cli, "bytes", bytes);
   spore_cli_close(cli);
-  spore_cli_say(cli, _("left out: %s (%s): saves %.3g kB\n"), what, reason, 1e-3 * bytes);
+  spore_cli_say(cli, _("left out: %s (%s): saves %.1f kB\n"), what, reason, 1e-3 * bytes);
 }
 
 void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs) {
