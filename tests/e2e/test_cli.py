@@ -1401,12 +1401,12 @@ def centreline_command():
     answer = report("centreline", "tube.off", "--points", 9, "-o", "tube.curve")
     assert answer["points"] == 9 and abs(answer["length"] - 0.08) < 0.001 and abs(answer["radius"]["max"] - 0.005) < 0.0003
     assert answer["branches"] == 0 and answer["side_branches"] == [] and answer["outside"] == 0 and answer["components"] == 1
-    assert answer["cover"] > 0.99 and "is not followed" not in spore("centreline", "tube.off", "-o", "tube.curve").stdout
+    assert answer["cover"] > 0.99 and "is not followed" not in spore("centreline", "tube.off", "-o", "told.curve").stdout
     rows = [[float(word) for word in line.split()] for line in (WORK / "tube.curve").read_text().splitlines() if line[0] != "#"]
     assert len(rows) == 9 and all(abs(y) < 2e-4 and abs(z) < 2e-4 for _, y, z, _ in rows)
     answer = report("centreline", "tube.off", "--first-place", "0.02,-0.004,0", "--last-place", "0.06,0,-0.001")
     assert abs(answer["length"] - 0.04) < 0.001 and 0.6 < answer["cover"] < 0.8  # and two radii beyond each end
-    assert "is not followed" in spore("centreline", "tube.off", "-o", "tube.curve", "--first-place", "0.02,-0.004,0", "--last-place", "0.06,0,-0.001").stdout
+    assert "is not followed" in spore("centreline", "tube.off", "-o", "told.curve", "--first-place", "0.02,-0.004,0", "--last-place", "0.06,0,-0.001").stdout
     file("ball.off", shapes.off(*shapes.sphere()))
     refuses("centreline", "ball.off", "-o", "ball.curve", says=["ball.off", "not a tube"])
     assert not (WORK / "ball.curve").exists()
