@@ -12,6 +12,7 @@
 #include <stddef.h>
 
 #include "core/base/cancel.h"
+#include "core/linalg/pcg.h"
 
 /* An equation that a step solved, with its answer, so that others than the solver can evaluate it:
  *   M (v - va) = c f(drift(qa, v, c), v),   M being that at qa.
@@ -82,10 +83,10 @@ typedef struct SporeDynamics {
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
   void (*precondition_dragged)(void *data, const double *r,
                                double *z); /* the same for what multiply_dragged stands for */
-  /* Linear iterations that take as much work as a P that holds what couples bodies, too, and that are left before it is
-   * worth making. 0: there is no such P, or P is it. And makes P it, as long as it serves; false: that cannot be. May
-   * be NULL: 0. */
-  size_t (*coupling_patience)(void *data);
+  /* How long a linear solution goes on before a P that holds what couples bodies, too, is worth making: `more` linear
+   * iterations take as much work as that P. Least 0: there is no such P, or P is it. And makes P it, as long as it
+   * serves; false: that cannot be. May be NULL: 0. */
+  SporePatience (*coupling_patience)(void *data);
   bool (*couple)(void *data);
   /* What linearise costs against a force, a precondition and the rest of a quasi-Newton iteration, where P is a factor
    * of the bodies' part of A; 0 where it is not meant to be one. */

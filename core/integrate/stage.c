@@ -68,15 +68,19 @@ static bool reuse(void *data, const double *v) {
 typedef SporeLinearResult Method(const SporeLinearOperator *operator, const double * b, double tolerance,
                                  size_t iterations, double *x, double *scratch);
 
-/* Where iterations are many, the preconditioner is made to hold what couples bodies. work: in an iteration, products.
- */
+/* Where iterations are many, the preconditioner is made to hold what couples bodies, unless the solution is all but
+ * there. work: in an iteration, products. */
 static SporeLinearResult iterate(Stage *stage, Method *method, const SporeLinearOperator *operator, const double * r,
                                  double tolerance, size_t work, double *dv) {
   const SporeDynamics *dynamics = stage->dynamics;
   size_t most = stage->linear_iterations / work, spent = 0;
-  size_t patience = dynamics->coupling_patience ? dynamics->coupling_patience(dynamics->data) : 0;
-  if (patience > 0 && patience < most * work) {
-    SporeLinearResult first = method(operator, r, tolerance, (patience + work - 1) / work, dv, stage->linear);
+  SporePatience patience = {0};
+  if (dynamics->coupling_patience) patience = dynamics->coupling_patience(dynamics->data);
+  if (patience.least > 0 && patience.least < most * work) {
+    SporeLinearOperator patient = *operator;
+    /* Biconjugate gradients leap: their rate tells nothing of what is left. */
+    patient.patience = (SporePatience){(patience.least + work - 1) / work, work == 1 ? patience.more : 0};
+    SporeLinearResult first = method(&patient, r, tolerance, most, dv, stage->linear);
     first.iterations *= work;
     if (first.status != SPORE_LINEAR_TOO_MANY) return first;
     dynamics->couple(dynamics->data);

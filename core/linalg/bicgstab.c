@@ -53,6 +53,8 @@ SporeLinearResult spore_bicgstab(const SporeLinearOperator *operator, const doub
     spore_vector_add_scaled(n, z, -omega, tz);
     residual = relative(spore_vector_dot(n, r, z), start);
     if (residual <= tolerance) return ended(SPORE_LINEAR_CONVERGED, iteration, residual);
+    if (spore_patience_ends(&operator->patience, iteration, residual, tolerance))
+      return ended(SPORE_LINEAR_TOO_MANY, iteration, residual);
     double next = spore_vector_dot(n, shadow, z), beta = next / rho * (alpha / omega);
     if (!isfinite(beta)) return ended(SPORE_LINEAR_BREAKDOWN, iteration, INFINITY);
     rho = next;

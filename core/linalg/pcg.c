@@ -15,6 +15,13 @@ static double dot(size_t n, const double *a, const double *b) {
   return (s[0] + s[1]) + (s[2] + s[3]);
 }
 
+bool spore_patience_ends(const SporePatience *patience, size_t iterations, double residual, double tolerance) {
+  if (patience->least == 0 || iterations < patience->least) return false;
+  if (iterations >= patience->least + patience->more || !(residual < 1)) return true;
+  double all = (double)iterations * log(tolerance) / log(residual);
+  return all > (double)(iterations + patience->more);
+}
+
 static SporeLinearResult broken(size_t n, double *x, size_t iterations) {
   memset(x, 0, n * sizeof *x);
   return (SporeLinearResult){SPORE_LINEAR_BREAKDOWN, iterations, INFINITY};
@@ -62,6 +69,7 @@ SporeLinearResult spore_pcg(const SporeLinearOperator *operator, const double * 
       result.status = SPORE_LINEAR_CONVERGED;
       return result;
     }
+    if (spore_patience_ends(&operator->patience, result.iterations, result.residual, tolerance)) return result;
     double beta = next / rz;
     rz = next;
     for (size_t i = 0; i < n; i++) p[i] = z[i] + beta * p[i];

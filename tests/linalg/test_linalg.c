@@ -165,6 +165,40 @@ static void test_bicgstab(void) {
   spore_block_matrix_clear(&matrix);
 }
 
+/* A solution is given up where it has far to go, not where it is all but there, and not for good. */
+static void test_patience(void) {
+  SporePatience never = {0}, some = {10, 5};
+  g_assert_false(spore_patience_ends(&never, 1000, 2, 1e-3));
+  g_assert_false(spore_patience_ends(&some, 9, 2, 1e-3));
+  g_assert_true(spore_patience_ends(&some, 10, 1, 1e-3));
+  g_assert_true(spore_patience_ends(&some, 10, INFINITY, 1e-3));
+  g_assert_false(spore_patience_ends(&some, 10, 9e-3, 1e-3)); /* 14.7 in all, at this rate */
+  g_assert_true(spore_patience_ends(&some, 10, 3e-2, 1e-3));
+  g_assert_true(spore_patience_ends(&some, 15, 1.1e-3, 1e-3));
+}
+
+static void test_given_up(void) {
+  static double dense[N][N];
+  SporeBlockMatrix matrix;
+  make(&matrix, dense, 0.01);
+  SporeLinearOperator operator= {&matrix, N, multiply, by_diagonal};
+  double x[N], b[N], scratch[SPORE_BICGSTAB_SCRATCH * N];
+  for (int i = 0; i < N; i++) b[i] = sin(i + 0.5);
+  size_t free = spore_pcg(&operator, b, 1e-10, 1000, x, scratch).iterations;
+  operator.patience =(SporePatience){2, 1};
+  SporeLinearResult result = spore_pcg(&operator, b, 1e-10, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_TOO_MANY);
+  g_assert_cmpuint(result.iterations, <=, 3);
+  result = spore_bicgstab(&operator, b, 1e-10, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_TOO_MANY);
+  g_assert_cmpuint(result.iterations, <=, 3);
+  operator.patience =(SporePatience){free - 2, free};
+  result = spore_pcg(&operator, b, 1e-10, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
+  g_assert_cmpuint(result.iterations, ==, free);
+  spore_block_matrix_clear(&matrix);
+}
+
 /* A matrix with a negative eigenvalue is found out, and what comes back still goes downhill: b.x > 0. */
 static void test_indefinite(void) {
   static double dense[N][N];
@@ -195,6 +229,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/linalg/matrix-without-memory", test_matrix_without_memory);
   g_test_add_func("/linalg/pcg", test_pcg);
   g_test_add_func("/linalg/bicgstab", test_bicgstab);
+  g_test_add_func("/linalg/patience", test_patience);
+  g_test_add_func("/linalg/given-up", test_given_up);
   g_test_add_func("/linalg/indefinite", test_indefinite);
   return g_test_run();
 }

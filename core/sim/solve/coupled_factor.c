@@ -365,23 +365,25 @@ static double iteration_work(const SporeIslandSystem *system) {
   return work;
 }
 
-size_t spore_island_system_coupling_patience(void *data) {
+SporePatience spore_island_system_coupling_patience(void *data) {
   SporeIslandSystem *system = data;
+  SporePatience never = {0};
   bool any = false;
-  if (system->coupled_fresh || system->together || !room_of(system)) return 0;
+  if (system->coupled_fresh || system->together || !room_of(system)) return never;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    if (spore_island_system_assembles(system, body) && !has_factor(system, body)) return 0;
-    if (spore_body_is_static(body)) return 0; /* next to no inertia: what buckles is left to conjugate gradients */
+    if (spore_island_system_assembles(system, body) && !has_factor(system, body)) return never;
+    if (spore_body_is_static(body)) return never; /* next to no inertia: what buckles is left to conjugate gradients */
     any |= has_factor(system, body);
   }
   size_t rows = system->contact_couplings + system->spring_couplings;
-  if (!any || rows == 0) return 0;
+  if (!any || rows == 0) return never;
   bool factors = system->coupled || !has_factors(system, room_of(system));
   double iteration = iteration_work(system), most = work_of(system, factors) / iteration;
   double spent = system->coupled ? room_of(system)->used / iteration : (double)system->products;
-  return most > spent + 1 ? (size_t)(most - spent) : 1;
+  /* The more a step has taken, the more it will take. */
+  return (SporePatience){most > spent + 1 ? (size_t)(most - spent) : 1, (size_t)(most * most / (most + spent))};
 }
 
 bool spore_island_system_couple(void *data) {

@@ -186,7 +186,7 @@ void spore_island_system_factor_solve(const SporeIslandSystem *system, const dou
 
 /* coupled_factor.c: slots of SporeDynamics. After a linearisation: takes in its couplings. z = P^-1 r where z is what
  * the bodies alone make of r. */
-size_t spore_island_system_coupling_patience(void *data);
+SporePatience spore_island_system_coupling_patience(void *data);
 bool spore_island_system_couple(void *data);
 void spore_island_system_update_coupled(SporeIslandSystem *system);
 void spore_island_system_take_in_couplings(SporeIslandSystem *system, const double *r, bool dragged, double *z);
