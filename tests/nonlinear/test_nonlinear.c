@@ -355,6 +355,30 @@ static void test_good_guess(void) {
   }
 }
 
+/* A force that is no load, whatever the guess is: a residual within tolerance of that is solved, though nothing else
+ * loads the system; one just outside is not, and is told against it as long as it is less. */
+static void test_least(void) {
+  const double tolerance = 1e-3;
+  Solver *solvers[] = {spore_newton, spore_broyden};
+  for (size_t s = 0; s < G_N_ELEMENTS(solvers); s++) {
+    for (int inside = 0; inside < 2; inside++) {
+      Cubic cubic = {.strength = 5, .coupling = 2};
+      SporeSystem system = make(&cubic);
+      double x[N] = {0}, r[N];
+      static double scratch[SPORE_BROYDEN_SCRATCH * N];
+      residual(&cubic, x, r);
+      system.least = norm(NULL, r) / tolerance * (inside ? 1.01 : 0.99);
+      SporeNonlinearResult result = run(solvers[s], &system, &(SporeNonlinearOptions){50, tolerance}, x, scratch);
+      g_assert_true(result.converged);
+      g_assert_cmpint(result.iterations == 0, ==, inside);
+      g_assert_cmpfloat(result.load, ==, system.least);
+      residual(&cubic, x, r);
+      g_assert_cmpfloat_with_epsilon(result.residual, norm(NULL, r) / system.least, 1e-12);
+      g_assert_cmpfloat(result.residual, <=, tolerance);
+    }
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/nonlinear/newton", test_newton);
@@ -368,5 +392,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/nonlinear/bad", test_bad);
   g_test_add_func("/nonlinear/solved-already", test_solved_already);
   g_test_add_func("/nonlinear/good-guess", test_good_guess);
+  g_test_add_func("/nonlinear/least", test_least);
   return g_test_run();
 }

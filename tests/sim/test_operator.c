@@ -237,6 +237,43 @@ static void test_kept_factor(void) {
   spore_world_free(world);
 }
 
+/* How far A P^-1 r is from r, at most. */
+static double missed(const SporeDynamics *dynamics, const double *r) {
+  double solved[N], back[N], worst = 0;
+  dynamics->precondition(dynamics->data, r, solved);
+  dynamics->multiply(dynamics->data, solved, back);
+  for (int i = 0; i < N; i++) worst = fmax(worst, fabs(back[i] - r[i]));
+  return worst;
+}
+
+/* Coupled, the preconditioner is A's inverse where its factors are those of the present, and nothing is left to take
+ * in; before, it lacks the couplings, and other places need another factor. */
+static void test_coupled(void) {
+  SporeWorld *world = make();
+  SporeIsland *island = &world->solve.islands[0];
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  const double *v = island->v0;
+  double q[N], r[N] = {0};
+  memcpy(q, island->q0, sizeof q);
+  for (int i = 0; i < N; i++) r[i] = i >= 9 && i < 12 ? 0 : cos(i);
+  dynamics.linearise(dynamics.data, q, NULL, v, 0.03, 0.002);
+  g_assert_cmpuint(system.contact_couplings, >, 0);
+  g_assert_cmpuint(dynamics.coupling_patience(dynamics.data).least, >, 0);
+  g_assert_cmpuint(dynamics.coupling_patience(dynamics.data).more, >, 0);
+  g_assert_cmpfloat(missed(&dynamics, r), >, 1e-2);
+  g_assert_true(dynamics.couple(dynamics.data));
+  g_test_message("coupled: %.1e", missed(&dynamics, r));
+  g_assert_cmpfloat(missed(&dynamics, r), <, 1e-9);
+  g_assert_cmpuint(dynamics.coupling_patience(dynamics.data).least, ==, 0);
+  for (int i = 0; i < N; i++) q[i] += 0.02 * sin(i);
+  dynamics.linearise(dynamics.data, q, NULL, v, 0.03, 0.002);
+  g_assert_cmpfloat(missed(&dynamics, r), >, 1e-6);
+  g_assert_true(dynamics.couple(dynamics.data));
+  g_assert_cmpfloat(missed(&dynamics, r), <, 1e-9);
+  spore_world_free(world);
+}
+
 #define STIFF_CHAINS 3
 #define WIDE (SPORE_BAND_WIDEST + 1)
 
@@ -313,6 +350,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/sim/operator/factor", test_factor);
   g_test_add_func("/sim/operator/local-assembly", test_local_assembly);
   g_test_add_func("/sim/operator/kept-factor", test_kept_factor);
+  g_test_add_func("/sim/operator/coupled", test_coupled);
   g_test_add_func("/sim/operator/choice", test_choice);
   return g_test_run();
 }
