@@ -10,8 +10,10 @@
 #include "core/body/path.h"
 #include "core/mesh/attach.h"
 
-#define REACH 4.0     /* mean radii: length over which sections even out their roll */
-#define STRAIGHT 1e-6 /* moment across a straight line, of that along it */
+#define REACH 4.0         /* mean radii: length over which sections even out their roll */
+#define SPREAD 2.5        /* radii: from a section to the ends of its chord */
+#define SPREAD_LEAST 0.01 /* of the parameter: the same at an end of the line */
+#define STRAIGHT 1e-6     /* moment across a straight line, of that along it */
 
 void spore_line_frames_clear(SporeLineFrames *frames) {
   spore_free(frames->stations);
@@ -23,12 +25,29 @@ void spore_line_frames_clear(SporeLineFrames *frames) {
   *frames = (SporeLineFrames){0};
 }
 
-static SporeLineRow row_at(SporeSplineKnots knots, double parameter) {
-  SporeLineRow row;
-  SporeSplineBasis basis = spore_spline_basis(knots, parameter, &row.first);
-  memcpy(row.value, basis.value, sizeof row.value);
-  memcpy(row.slope, basis.first, sizeof row.slope);
-  return row;
+static SporeLineSum sum_at(SporeSplineKnots knots, double parameter) {
+  SporeLineSum sum;
+  SporeSplineBasis basis = spore_spline_basis(knots, parameter, &sum.first);
+  memcpy(sum.weight, basis.value, sizeof sum.weight);
+  return sum;
+}
+
+static SporeLineRow row_at(SporeSplineKnots knots, double parameter, double spread) {
+  return (SporeLineRow){sum_at(knots, parameter), sum_at(knots, parameter + spread), sum_at(knots, parameter - spread)};
+}
+
+/* How far off the ends of the chord are, in the parameter: toward an end of the line as far as the end, so that the
+ * sections there are square to it. */
+static double spread_at(const SporeLine *line, double parameter) {
+  size_t span = spore_spline_span(line->knots, parameter), low = SPORE_LINE_SAMPLES * span;
+  double at = (parameter - spore_spline_break(line->knots, span)) / spore_spline_width(line->knots, span);
+  double share = SPORE_LINE_SAMPLES * fmin(at, 1), end = spore_spline_end(line->knots);
+  size_t before = (size_t)fmin(floor(share), SPORE_LINE_SAMPLES - 1);
+  const double *radii = line->radius + low + before;
+  double radius = radii[0] + (share - (double)before) * (radii[1] - radii[0]);
+  double speed = spore_vec3_length(spore_path_at(line->knots, line->q, parameter).slope);
+  double spread = SPREAD * radius / fmax(speed, 1e-150);
+  return fmax(fmin(spread, fmin(parameter, end - parameter)), SPREAD_LEAST);
 }
 
 static bool allocate(SporeLineFrames *frames, size_t stations, size_t points) {
@@ -60,7 +79,7 @@ static double measure_stations(SporeLineFrames *frames, const SporeLine *line) {
   }
   for (size_t k = 0; k < frames->station_count; k++) {
     SporeLineStation *station = &frames->stations[k];
-    station->place = spore_line_sum(&station->row, station->row.value, line->q);
+    station->place = spore_line_sum(&station->row.value, line->q);
     middle = spore_vec3_add_scaled(middle, station->length / whole, station->place);
   }
   for (size_t k = 0; k < frames->station_count; k++)
@@ -73,12 +92,12 @@ static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
   SporeVec3 tangent = {1, 0, 0}, normal = {0, 1, 0};
   for (size_t k = 0; k < frames->station_count; k++) {
     SporeLineStation *station = &frames->stations[k];
-    SporeVec3 next = spore_vec3_normalise(spore_line_sum(&station->row, station->row.slope, line->q), tangent);
+    SporeVec3 next = spore_vec3_normalise(spore_line_chord(&station->row, line->q), tangent);
     normal = spore_vec3_transport(normal, tangent, next);
     station->tangent = tangent = next;
     station->normal = normal = spore_vec3_normalise(spore_line_across(normal, next), normal);
     if (!frames->arms) continue;
-    SporeVec3 foot = spore_line_sum(&station->row, station->row.value, line->q);
+    SporeVec3 foot = spore_line_sum(&station->row.value, line->q);
     SporeVec3 arm = spore_line_across(spore_vec3_sub(spore_vec3_load(line->q + 3 * station->arm), foot), next);
     station->angle = atan2(spore_vec3_dot(normal, spore_vec3_cross(next, arm)), spore_vec3_dot(normal, arm));
   }
@@ -125,7 +144,7 @@ static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
   for (size_t k = 0; k < frames->station_count; k++) {
     SporeLineStation *station = &frames->stations[k];
     bool end = station->parameter >= spore_spline_end(knots);
-    station->row = row_at(knots, station->parameter);
+    station->row = row_at(knots, station->parameter, station->spread);
     station->arm = count + (end ? knots.span_count : spore_spline_span(knots, station->parameter));
   }
 }
@@ -133,13 +152,17 @@ static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
 void spore_line_frames_follow(SporeLineFrames *frames, SporeSplineKnots knots) {
   assert(knots.span_count > 0);
   lead(frames, knots);
-  for (size_t i = 0; i < frames->point_count; i++) frames->points[i].row = row_at(knots, frames->points[i].parameter);
+  for (size_t i = 0; i < frames->point_count; i++) {
+    SporeLinePoint *point = &frames->points[i];
+    point->row = row_at(knots, point->parameter, point->spread);
+  }
 }
 
 static void set_stations(SporeLineFrames *frames, const SporeLine *line) {
   size_t parts = frames->arms ? 1 : 2;
   for (size_t k = 0; k < frames->station_count; k++) {
     frames->stations[k].parameter = spore_spline_part(line->knots, parts, k);
+    frames->stations[k].spread = spread_at(line, frames->stations[k].parameter);
   }
   lead(frames, line->knots);
   measure_stations(frames, line);
@@ -158,8 +181,8 @@ typedef struct Section {
 static Section section_at(const SporeLineFrames *frames, const SporeLinePoint *point, const double *q) {
   assert(point->station + 1 < frames->station_count);
   const SporeLineFrame *before = &frames->frames[point->station];
-  SporeVec3 slope = spore_line_sum(&point->row, point->row.slope, q);
-  Section section = {.position = spore_line_sum(&point->row, point->row.value, q)};
+  SporeVec3 slope = spore_line_chord(&point->row, q);
+  Section section = {.position = spore_line_sum(&point->row.value, q)};
   section.inverse = 1 / fmax(spore_vec3_length(slope), 1e-150);
   section.tangent = spore_vec3_normalise(slope, before->tangent);
   section.bend = spore_line_bend(before->tangent, section.tangent);
@@ -200,7 +223,8 @@ static void set_point(SporeLineFrames *frames, const SporeLine *line, uint32_t s
   }
   double from = frames->stations[low].parameter;
   point->parameter = place.parameter;
-  point->row = row_at(line->knots, place.parameter);
+  point->spread = spread_at(line, place.parameter);
+  point->row = row_at(line->knots, place.parameter, point->spread);
   point->station = (uint32_t)low;
   point->share = (place.parameter - from) / (frames->stations[low + 1].parameter - from);
   Section section = section_at(frames, point, line->q);
@@ -208,8 +232,11 @@ static void set_point(SporeLineFrames *frames, const SporeLine *line, uint32_t s
   point->place[0] = spore_vec3_dot(off, section.tangent);
   point->place[1] = spore_vec3_dot(off, section.normal);
   point->place[2] = spore_vec3_dot(off, spore_vec3_cross(section.tangent, section.normal));
-  SporeVec3 bend = spore_line_across(place.bend, section.tangent);
-  point->crowd = spore_vec3_length(bend) * section.inverse * section.inverse * spore_vec3_length(off);
+  SporeVec3 ahead = spore_path_at(line->knots, line->q, place.parameter + point->spread).slope,
+            behind = spore_path_at(line->knots, line->q, place.parameter - point->spread).slope;
+  SporeVec3 turn = spore_line_across(spore_vec3_sub(ahead, behind), section.tangent);
+  point->crowd =
+      spore_vec3_length(turn) * section.inverse * spore_vec3_length(off) / fmax(spore_vec3_length(place.slope), 1e-150);
 }
 
 static bool no_memory(size_t count, SporeError *error) {
@@ -265,14 +292,14 @@ void spore_line_frames_velocities(const SporeLineFrames *frames, size_t point, c
     const double *rates = frames->tangent_rate + 3 * its->station, *rolls = frames->roll_rate + its->station;
     Section section = section_at(frames, its, q);
     SporeVec3 before = spore_vec3_load(rates), next = spore_vec3_load(rates + 3);
-    SporeVec3 rate = spore_line_across(spore_line_sum(&its->row, its->row.slope, v), section.tangent);
+    SporeVec3 rate = spore_line_across(spore_line_chord(&its->row, v), section.tangent);
     rate = spore_vec3_scale(section.inverse, rate);
     double twisting =
         rolls[1] - rolls[0] + spore_vec3_dot(frames->frames[its->station].bend, spore_vec3_add(before, next));
     double roll = rolls[0] - spore_vec3_dot(section.bend, spore_vec3_add(before, rate)) + its->share * twisting;
     SporeVec3 spin = spore_vec3_cross(section.tangent, rate);
     spin = spore_vec3_add_scaled(spin, roll, section.tangent);
-    SporeVec3 speed = spore_line_sum(&its->row, its->row.value, v);
+    SporeVec3 speed = spore_line_sum(&its->row.value, v);
     spore_vec3_store(velocities, spore_vec3_add(speed, spore_vec3_cross(spin, arm_of(its, &section))));
   }
 }
@@ -291,8 +318,8 @@ static void pull_point(const SporeLineFrames *frames, const SporeLinePoint *poin
   frames->roll_rate[point->station + 1] += point->share * roll;
   spore_vec3_accumulate(rates, spore_vec3_sub(twist, bend));
   spore_vec3_accumulate(rates + 3, twist);
-  spore_line_spread(&point->row, point->row.slope, spore_vec3_scale(section.inverse, slope), f);
-  spore_line_spread(&point->row, point->row.value, force, f);
+  spore_line_spread_chord(&point->row, spore_vec3_scale(section.inverse, slope), f);
+  spore_line_spread(&point->row.value, force, f);
 }
 
 void spore_line_frames_add_forces(const SporeLineFrames *frames, size_t point, const double *q, const double *forces,

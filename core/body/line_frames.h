@@ -1,7 +1,9 @@
 /* Frames along a line: how a mesh around a line of control points follows that line, section by section. Each point of
  * the mesh keeps its parameter along the line, and its place in the frame there. The frame has the tangent of the line,
- * and a normal that turns about the tangent as little as it can. A section keeps its shape and turns as a whole. So a
- * bend does not pinch the mesh, and a twist wrings it. At rest every point is where it was, to rounding.
+ * and a normal that turns about the tangent as little as it can. The tangent is that of the chord between two places on
+ * either side, two and a half radii away: so a bend that is sharper than the mesh is thick is spread over its sections,
+ * which else would pass each other on the inside and turn the mesh inside out. A section keeps its shape and turns as a
+ * whole. So a bend does not pinch the mesh, and a twist wrings it. At rest every point is where it was, to rounding.
  *
  * Normals are carried from station to station by the smallest rotation from one tangent to the next (parallel
  * transport: R. L. Bishop, "There is more than one way to frame a curve", 1975; Bergou, Wardetzky, Robinson, Audoly and
@@ -39,16 +41,21 @@ typedef struct SporeLine {
 /* Places in a span at which the radius of a line is given. */
 #define SPORE_LINE_SAMPLES 8
 
-/* How a place on the line follows from the nodes `first` .. `first` + 3. */
-typedef struct SporeLineRow {
+/* A sum over the nodes `first` .. `first` + 3. */
+typedef struct SporeLineSum {
   size_t first;
-  double value[4], slope[4]; /* weights of the nodes, and their derivatives by the parameter */
+  double weight[4];
+} SporeLineSum;
+
+/* How a place on the line, and the two ends of the chord about it, follow from the nodes. */
+typedef struct SporeLineRow {
+  SporeLineSum value, ahead, behind;
 } SporeLineRow;
 
 /* A place on the line that has a frame of its own, as it is at rest. */
 typedef struct SporeLineStation {
-  double parameter;
-  size_t arm; /* node at the end of its arm */
+  double parameter, spread; /* spread: the chord's ends are so far off, in the parameter */
+  size_t arm;               /* node at the end of its arm */
   SporeLineRow row;
   SporeVec3 place;           /* at rest, from the mean of the stations, m */
   SporeVec3 tangent, normal; /* at rest */
@@ -61,7 +68,7 @@ typedef struct SporeLineStation {
 /* The frame of a station, and what its derivatives need, at the q that was last placed. */
 typedef struct SporeLineFrame {
   SporeVec3 position, tangent, normal;
-  double inverse;            /* 1 / length of the derivative by the parameter */
+  double inverse;            /* 1 / length of the chord, 1/m */
   double twist;              /* roll to the next station, rad */
   SporeVec3 bend;            /* spore_line_bend to the next station */
   SporeVec3 arm;             /* from the line to the end of the arm, m */
@@ -73,12 +80,12 @@ typedef struct SporeLineFrame {
 
 /* A point of the mesh. */
 typedef struct SporeLinePoint {
-  double parameter;
+  double parameter, spread;
   SporeLineRow row;
   uint32_t station; /* before the point */
   double share;     /* part of the way from that station to the next */
   double place[3];  /* from the line, along the tangent, the normal, and tangent x normal, m */
-  double crowd;     /* curvature of the line at rest times the point's distance from the line */
+  double crowd;     /* how fast sections turn along the line at rest, 1/m, times the point's distance from the line */
 } SporeLinePoint;
 
 /* Frames of a line, and the points that follow them. The structure owns its arrays. */
@@ -120,8 +127,9 @@ void spore_line_frames_velocities(const SporeLineFrames *frames, size_t point, c
 void spore_line_frames_add_forces(const SporeLineFrames *frames, size_t point, const double *q, const double *forces,
                                   double *f);
 
-/* Largest curvature of the line at rest times distance from the line, over all points. Where this exceeds 1, the mesh
- * folds on the inside of the bend. *point: where it is largest; *share: part of the points where it exceeds 1. */
+/* Largest turn of the sections per length of the line at rest, times distance from the line, over all points. Where
+ * this exceeds 1, the mesh folds on the inside of the bend. *point: where it is largest; *share: part of the points
+ * where it exceeds 1. */
 double spore_line_frames_crowd(const SporeLineFrames *frames, size_t *point, double *share);
 
 /* line_roll.c: computes the frames of the stations at q, into `frames->frames`. */
@@ -132,16 +140,25 @@ void spore_line_roll_rate(const SporeLineFrames *frames, const double *q, const 
  * nodes. */
 void spore_line_roll_pull(const SporeLineFrames *frames, const double *q, double *f);
 
-/* Sum of weight[k] times the vector of node row->first + k in `values` (3 doubles a node). */
-static inline SporeVec3 spore_line_sum(const SporeLineRow *row, const double weight[4], const double *values) {
-  SporeVec3 sum = {0, 0, 0};
+/* The sum of `values` (3 doubles a node). */
+static inline SporeVec3 spore_line_sum(const SporeLineSum *sum, const double *values) {
+  SporeVec3 all = {0, 0, 0};
   for (size_t k = 0; k < 4; k++)
-    sum = spore_vec3_add_scaled(sum, weight[k], spore_vec3_load(values + 3 * (row->first + k)));
-  return sum;
+    all = spore_vec3_add_scaled(all, sum->weight[k], spore_vec3_load(values + 3 * (sum->first + k)));
+  return all;
 }
-/* The transpose of spore_line_sum: f of node row->first + k += weight[k] value. */
-static inline void spore_line_spread(const SporeLineRow *row, const double weight[4], SporeVec3 value, double *f) {
-  for (size_t k = 0; k < 4; k++) spore_vec3_accumulate(f + 3 * (row->first + k), spore_vec3_scale(weight[k], value));
+/* The transpose: f of each node += its weight times value. */
+static inline void spore_line_spread(const SporeLineSum *sum, SporeVec3 value, double *f) {
+  for (size_t k = 0; k < 4; k++)
+    spore_vec3_accumulate(f + 3 * (sum->first + k), spore_vec3_scale(sum->weight[k], value));
+}
+/* The chord, of `values`, and the transpose. */
+static inline SporeVec3 spore_line_chord(const SporeLineRow *row, const double *values) {
+  return spore_vec3_sub(spore_line_sum(&row->ahead, values), spore_line_sum(&row->behind, values));
+}
+static inline void spore_line_spread_chord(const SporeLineRow *row, SporeVec3 value, double *f) {
+  spore_line_spread(&row->ahead, value, f);
+  spore_line_spread(&row->behind, spore_vec3_scale(-1, value), f);
 }
 /* The part of a that is perpendicular to the tangent (a unit vector). */
 static inline SporeVec3 spore_line_across(SporeVec3 a, SporeVec3 tangent) {

@@ -67,7 +67,7 @@ static SporeVec3 turn_rate(const SporeLineFrames *frames, const Turn *turn, cons
   SporeVec3 sum = none;
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineStation *station = &frames->stations[k];
-    SporeVec3 speed = spore_vec3_scale(station->length, spore_line_sum(&station->row, station->row.value, v));
+    SporeVec3 speed = spore_vec3_scale(station->length, spore_line_sum(&station->row.value, v));
     if (frames->straight) {
       sum = spore_vec3_add_scaled(sum, spore_vec3_dot(station->place, frames->chord), speed);
     } else {
@@ -95,7 +95,7 @@ static void turn_pull(const SporeLineFrames *frames, const Turn *turn, SporeVec3
     const SporeLineStation *station = &frames->stations[k];
     SporeVec3 force = frames->straight ? spore_vec3_scale(spore_vec3_dot(station->place, frames->chord), swing)
                                        : spore_mat3_apply(turn->rotation, spore_vec3_cross(fitted, station->place));
-    spore_line_spread(&station->row, station->row.value, spore_vec3_scale(station->length, force), f);
+    spore_line_spread(&station->row.value, spore_vec3_scale(station->length, force), f);
   }
 }
 
@@ -104,8 +104,8 @@ static void place_stations(const SporeLineFrames *frames, const double *q) {
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineRow *row = &frames->stations[k].row;
     SporeLineFrame *frame = &frames->frames[k];
-    SporeVec3 slope = spore_line_sum(row, row->slope, q);
-    frame->position = spore_line_sum(row, row->value, q);
+    SporeVec3 slope = spore_line_chord(row, q);
+    frame->position = spore_line_sum(&row->value, q);
     frame->inverse = 1 / fmax(spore_vec3_length(slope), SHORT);
     frame->tangent = axis = spore_vec3_normalise(slope, axis);
   }
@@ -205,7 +205,7 @@ static void rate_of_arms(const SporeLineFrames *frames, const double *v) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 turn = roll_of_arm(frame), end = spore_vec3_load(v + 3 * frames->stations[k].arm);
-    SporeVec3 speed = spore_vec3_sub(end, spore_line_sum(row, row->value, v));
+    SporeVec3 speed = spore_vec3_sub(end, spore_line_sum(&row->value, v));
     double lean = spore_vec3_dot(frame->arm, frame->tangent);
     frames->roll_rate[k] = spore_vec3_dot(turn, speed) - lean * spore_vec3_dot(turn, rate_of(frames, k));
   }
@@ -250,7 +250,7 @@ void spore_line_roll_rate(const SporeLineFrames *frames, const double *q, const 
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
-    SporeVec3 speed = spore_line_across(spore_line_sum(row, row->slope, v), frame->tangent);
+    SporeVec3 speed = spore_line_across(spore_line_chord(row, v), frame->tangent);
     spore_vec3_store(frames->tangent_rate + 3 * k, spore_vec3_scale(frame->inverse, speed));
   }
   if (frames->arms) rate_of_arms(frames, v);
@@ -263,7 +263,7 @@ static void pull_arms(const SporeLineFrames *frames, double *f) {
     const SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 turn = spore_vec3_scale(frames->roll_rate[k], roll_of_arm(frame));
     spore_vec3_accumulate(f + 3 * frames->stations[k].arm, turn);
-    spore_line_spread(row, row->value, spore_vec3_scale(-1, turn), f);
+    spore_line_spread(&row->value, spore_vec3_scale(-1, turn), f);
     spore_vec3_accumulate(frames->tangent_rate + 3 * k,
                           spore_vec3_scale(-spore_vec3_dot(frame->arm, frame->tangent), turn));
   }
@@ -312,6 +312,6 @@ void spore_line_roll_pull(const SporeLineFrames *frames, const double *q, double
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 pull = spore_line_across(rate_of(frames, k), frame->tangent);
-    spore_line_spread(row, row->slope, spore_vec3_scale(frame->inverse, pull), f);
+    spore_line_spread_chord(row, spore_vec3_scale(frame->inverse, pull), f);
   }
 }

@@ -29,7 +29,8 @@ static void check_frames(SporeCheck *check, const SporeObject *body, const Spore
   if (quality->error.crowd > 1)
     spore_check_say(check, SPORE_NOTE, visual,
                     _("draw a smoother surface or a smoother line; fewer control points make it smoother"),
-                    _("the line of \"%s\" bends more sharply than the distance of %.3g%% of the vertices drawn around "
+                    _("the line of \"%s\" bends more sharply, over five radii, than the distance of %.3g%% of the "
+                      "vertices drawn around "
                       "it, up to %.3g times, near (%.3g %.3g %.3g) m: where it bends on, the surface folds on the "
                       "inside"),
                     spore_object_name(body), 100 * quality->error.crowd_share, quality->error.crowd,

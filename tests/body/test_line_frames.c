@@ -166,11 +166,104 @@ static void test_follow(void) {
   g_rand_free(random);
 }
 
+enum { LONG = 20, BENT_RINGS = 201 };
+
+/* A straight line along x that is bent about its middle, more and more, to `angle` between its halves: round, with this
+ * radius, and sharp where the radius is 0. */
+static SporeVec3 bent_at(double along, double radius, double angle) {
+  double half = 0.5 * LONG, first = half - 0.5 * radius * angle, turn = radius > 0 ? (along - first) / radius : 0;
+  if (radius > 0 && turn > 0 && turn < angle)
+    return spore_vec3(first + radius * sin(turn), radius * (1 - cos(turn)), 0);
+  if (along <= (radius > 0 ? first : half)) return spore_vec3(along, 0, 0);
+  double on = along - (radius > 0 ? first + radius * angle : half);
+  return spore_vec3((radius > 0 ? first : half) + radius * sin(angle) + on * cos(angle),
+                    radius * (1 - cos(angle)) + on * sin(angle), 0);
+}
+
+static void place_bent(double *q, double radius, double angle) {
+  for (size_t i = 0; i < LONG + 3; i++) {
+    double sum = 0;
+    for (int k = 1; k <= 3; k++) sum += fmin(fmax((double)i + k - 3, 0), LONG);
+    spore_vec3_store(q + 3 * i, bent_at(sum / 3, radius, angle));
+  }
+}
+
+/* Triangles of a tube that look toward the line inside of their rings. */
+static size_t count_inverted(const SporeMapping *mapping, const SporeTriangleMesh *tube, const double *q, double *at) {
+  size_t inverted = 0;
+  spore_mapping_positions(mapping, q, at);
+  for (size_t t = 0; t < tube->triangle_count; t++) {
+    SporeVec3 p[3], middle = {0, 0, 0}, inside = {0, 0, 0};
+    for (size_t k = 0; k < 3; k++) {
+      uint32_t n = tube->triangles[3 * t + k];
+      if (n >= BENT_RINGS * SECTORS) goto next; /* of a cap */
+      p[k] = spore_vec3_load(at + 3 * (size_t)n);
+      middle = spore_vec3_add_scaled(middle, 1.0 / 3, p[k]);
+      for (size_t s = 0; s < SECTORS; s++)
+        inside = spore_vec3_add_scaled(inside, 1.0 / (3 * SECTORS),
+                                       spore_vec3_load(at + 3 * ((size_t)n / SECTORS * SECTORS + s)));
+    }
+    SporeVec3 normal = spore_vec3_cross(spore_vec3_sub(p[1], p[0]), spore_vec3_sub(p[2], p[0]));
+    inverted += spore_vec3_dot(normal, spore_vec3_sub(middle, inside)) < 0;
+  next:;
+  }
+  return inverted;
+}
+
+/* Frames by the line's own tangents, as they would be without chords. */
+static void forget_chords(SporeMapping *mapping) {
+  SporeLineFrames *frames = mapping->frames;
+  for (size_t k = 0; k < frames->station_count; k++) frames->stations[k].spread = 1e-4;
+  for (size_t i = 0; i < frames->point_count; i++) frames->points[i].spread = 1e-4;
+  spore_line_frames_follow(frames, spore_spline_uniform(LONG));
+}
+
+/* Corners and bends that are sharper than the tube is thick do not turn its skin inside out at any time; where the bend
+ * comes back on itself, so that the tube's walls meet, at most a quarter to a half of what turned before does. */
+static void test_sharp_bends(void) {
+  double q[3 * (LONG + 3)], radius[SPORE_LINE_SAMPLES * LONG + 1];
+  for (size_t i = 0; i <= SPORE_LINE_SAMPLES * LONG; i++) radius[i] = 1;
+  SporeCurve curve;
+  SporeTriangleMesh tube;
+  g_assert_true(spore_curve_allocate(&curve, BENT_RINGS, NULL));
+  for (size_t i = 0; i < BENT_RINGS; i++) {
+    spore_vec3_store(curve.points + 4 * i, spore_vec3((double)LONG * (double)i / (BENT_RINGS - 1), 0, 0));
+    curve.points[4 * i + 3] = 1;
+  }
+  g_assert_true(spore_curve_tube(&curve, SECTORS, &tube, NULL));
+  g_autofree double *at = g_new(double, 3 * tube.vertex_count);
+  const SporeLine line = {.knots = spore_spline_uniform(LONG), .radius = radius, .q = q};
+  static const struct {
+    double radius, angle, share; /* share: at most, of what turns without chords */
+  } bends[] = {{0, M_PI / 2, 0}, {0.5, 2 * M_PI / 3, 0}, {0, 2 * M_PI / 3, 0.25}, {0.8, M_PI, 0.5}, {4, M_PI, 0}};
+  for (size_t b = 0; b < G_N_ELEMENTS(bends); b++) {
+    size_t with = 0, without = 0;
+    for (int chords = 0; chords < 2; chords++) {
+      SporeMapping mapping;
+      place_bent(q, 0, 0);
+      g_assert_true(spore_mapping_init_frames(&mapping, &line, &tube, NULL));
+      if (!chords) forget_chords(&mapping);
+      for (int stage = 0; stage <= 20; stage++) {
+        place_bent(q, bends[b].radius, bends[b].angle * stage / 20);
+        *(chords ? &with : &without) += count_inverted(&mapping, &tube, q, at);
+      }
+      spore_mapping_clear(&mapping);
+    }
+    g_test_message("radius %g, %.0f degrees: %zu triangles inside out by tangents, %zu by chords", bends[b].radius,
+                   bends[b].angle * 180 / M_PI, without, with);
+    g_assert_cmpfloat((double)with, <=, bends[b].share * (double)without);
+    g_assert_true((without > 0) == (bends[b].radius < 1));
+  }
+  spore_triangle_mesh_clear(&tube);
+  spore_curve_clear(&curve);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/line_frames/attach", test_attach);
   g_test_add_func("/line_frames/attach_without_memory", test_attach_without_memory);
   g_test_add_func("/line_frames/twist", test_twist);
   g_test_add_func("/line_frames/follow", test_follow);
+  g_test_add_func("/line_frames/sharp_bends", test_sharp_bends);
   return g_test_run();
 }

@@ -309,7 +309,7 @@ CHECK = [
      scene(body("organ", SOFT, '<visual mesh="m"/>'), assets=CELLS + '<mesh name="m" file="cube.off"/>')),
     ("%.3g%% of the edges drawn for \"%s\" lead from one loop of its line to another, and are torn apart as these move",
      ["draw a surface whose loops do not touch, or the body's own skin"], drawn("bent.curve", "web.off"), drawn("line.curve", "tube.off")),
-    ("the line of \"%s\" bends more sharply than the distance of %.3g%% of the vertices drawn around it, up to %.3g times, near "
+    ("the line of \"%s\" bends more sharply, over five radii, than the distance of %.3g%% of the vertices drawn around it, up to %.3g times, near "
      "(%.3g %.3g %.3g) m: where it bends on, the surface folds on the inside",
      ["draw a smoother surface or a smoother line; fewer control points make it smoother"],
      drawn("bent.curve", "hair.off"), drawn("line.curve", "tube.off")),
