@@ -44,6 +44,7 @@ static SporeIsland *attempt(SporeWorld *world, unsigned before, double *q, doubl
   spore_world_find_islands(world);
   SporeIsland *island = &world->solve.islands[0];
   spore_island_gather(world, island);
+  island->taken = island->integrator;
   island->result = spore_island_advance(world, island, island->integrator, island->substeps, NULL);
   spore_island_examine(world, island);
   memcpy(q, island->q1, N * sizeof *q);

@@ -58,17 +58,21 @@ static Rig *fall(const SporeModelType *type, SporeIntegratorKind integrator) {
 /* Energy may rise above the start by what a contact that is met within a step gives back: a small part of what falls.
  * What contacts store is left out: an explicit step softens contacts that are too stiff for it, and they then hold less
  * than their springs would. With steps above 1 ms spheres are found deep inside each other, and a body that is caught
- * between them may be bent: its shape's energy is then said, and only motion and height are judged. */
+ * between them may be bent: its shape's energy is then said, and only motion and height are judged; also where elements
+ * are met one after the other: what was not met yet is strained, and so has energy, which the next steps take away. */
 static void check_run(const char *name, Rig *rig, unsigned steps) {
   SporeWorld *world = rig->world;
   double h = rig->description.solver.time_step, most = -HUGE_VAL, bent = 0;
+  SporeMethod method;
+  g_assert_true(spore_world_body_method(world, 1, &method));
+  gboolean strained = h > 1e-3 || strcmp(method.integrator.name, "position_based") == 0;
   SporeEnergy start = spore_world_energy(world);
   for (unsigned i = 0; i < steps; i++) {
     spore_world_step(world);
     SporeEnergy energy = spore_world_energy(world);
     double rise = energy.kinetic + energy.gravity - start.kinetic - start.gravity;
     double shape = energy.internal - start.internal; /* what holds a fluid together may turn into motion */
-    most = fmax(most, rise + (h <= 1e-3 ? shape : fmin(shape, 0)));
+    most = fmax(most, rise + (strained ? fmin(shape, 0) : shape));
     bent = fmax(bent, shape);
   }
   double fallen = 9.81 * spore_model_total_mass(spore_world_body_model(world, 1)) * 0.01; /* J, of 1 cm */

@@ -211,6 +211,7 @@ static void begin(Impact *impact) {
   impact->dynamics = spore_island_system_dynamics(&impact->system);
   impact->force = world->solve.scratch + world->solve.scratch_per_block * (island->v_start / 3);
   island->stand_in = NULL;
+  island->taken = SPORE_INTEGRATOR_IMPLICIT_EULER; /* of what is left, the only part that is solved */
   island->history.step_s = 0;
   for (size_t i = 0; i < island->contact_count; i++)
     spore_island_system_contact(&impact->system, i)->impulse = (SporeVec3){0, 0, 0};

@@ -109,14 +109,14 @@ static bool some_go_alone(const SporeWorld *world, const SporeIsland *island) {
 }
 
 /* An explicit island with contacts or links that its step does not resolve takes this step by implicit Euler, unless
- * the contacts are met in its sweep. Particles keep their own method: only contacts and links are implicit. */
+ * the contacts are met in its sweep and bodies do not meet fast: the contacts of those are found too late, and what
+ * they enter with would be energy from nothing. Particles keep their own method: only contacts and links are implicit.
+ */
 static void couple(SporeWorld *world, SporeIsland *island) {
   if (spore_integrator(island->integrator)->implicit) return;
   SporeIslandSystem system = {.world = world, .island = island};
   system.meets = spore_island_system_can_meet(&system);
-  if ((system.meets || !meets_in_step(world, island)) &&
-      spore_island_system_resolves(&system, step_of(world, island), true))
-    return;
+  if (!meets_in_step(world, island) && spore_island_system_resolves(&system, step_of(world, island), true)) return;
   island->multirate = some_go_alone(world, island);
   island->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
   spore_island_gather(world, island); /* with the history of that method */
@@ -138,27 +138,13 @@ static size_t substeps_to_resolve(SporeWorld *world, const SporeIsland *island) 
   return high;
 }
 
-/* Whether the contacts of the body, if it has them, are met in its sweep, whatever it touches. */
-static bool meets_all(const SporeWorld *world, const SporeBody *body) {
-  if (!spore_body_sweeps(body)) return false;
-  for (uint32_t b = 0; b < world->body_count; b++) {
-    const SporeBody *other = &world->bodies[b];
-    if (other->role == SPORE_PASSIVE && other->collision.spheres.point_count > 0 && !spore_body_sweeps(other))
-      return false;
-  }
-  return true;
-}
-
-static bool contacts_couple(const SporeWorld *world, const SporeBody *body) {
-  return world->contact.grid && body->collision.spheres.point_count > 0 && !meets_all(world, body);
-}
-
 SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t index, size_t *resolving) {
   assert(index < world->body_count && resolving);
   const SporeBody *body = &world->bodies[index];
   *resolving = 0;
   if (spore_integrator(body->method.integrator)->implicit) return SPORE_COUPLED_NEVER;
-  SporeCoupled otherwise = contacts_couple(world, body) ? SPORE_COUPLED_CONTACTS : SPORE_COUPLED_NEVER;
+  SporeCoupled otherwise =
+      world->contact.grid && body->collision.spheres.point_count > 0 ? SPORE_COUPLED_CONTACTS : SPORE_COUPLED_NEVER;
   if (!spore_body_moves(body)) return otherwise;
   spore_world_find_islands(world);
   SporeIsland alike = world->solve.islands[world->solve.island_of[index]];
@@ -186,6 +172,7 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
   island->stand_in = NULL;
+  island->taken = SPORE_INTEGRATOR_IMPLICIT_EULER;
   if (island->multirate) {
     island->history.step_s = 0;
     SporeStepResult multirate = spore_island_advance_multirate(world, island);
@@ -204,7 +191,8 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
    * is solved. */
   SporeEffort effort = {.iterations = HOPELESS_ITERATIONS * island->substeps, .hopeless = HUGE_VAL};
   bool hopeless = spore_island_is_hopeless(world, island);
-  return spore_island_advance(world, island, method(world, island), island->substeps, hopeless ? &effort : NULL);
+  island->taken = method(world, island);
+  return spore_island_advance(world, island, island->taken, island->substeps, hopeless ? &effort : NULL);
 }
 
 /* Whether a model of the island keeps something of where its forces were evaluated: then an evaluation elsewhere would

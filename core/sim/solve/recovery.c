@@ -196,12 +196,12 @@ static void restore_best(const SporeWorld *world, SporeIsland *island, const Bes
 }
 
 /* Takes the step again. The result counts the work of this attempt and of those before. */
-static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, SporeEffort *effort) {
+static void try_by(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
+                   SporeEffort *effort) {
   assert(substeps >= 1 && island->kept_count >= 1);
   SporeStepResult spent = island->result;
   spore_island_gather(world, island);
   substeps *= island->substeps;
-  SporeIntegratorKind kind = mending_method(world, island);
   island->stand_in = spore_integrator(kind);
   island->result = spore_island_advance(world, island, kind, substeps, effort);
   island->mending_substeps += substeps;
@@ -210,6 +210,10 @@ static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, S
   spent.residual = 0;
   spore_step_result_add(&spent, &island->result);
   island->result = spent;
+}
+
+static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, SporeEffort *effort) {
+  try_by(world, island, mending_method(world, island), substeps, effort);
 }
 
 /* Takes the step without friction. Friction depends on the normal force, so contacts with friction may have no unique
@@ -277,7 +281,7 @@ static bool try_patiently(SporeWorld *world, SporeIsland *island, Best *best) {
   SporeEffort effort = {.iterations = EFFORT * (size_t)world->solver.newton_iterations * island->substeps,
                         .hopeless = HUGE_VAL,
                         .patience = EFFORT};
-  try_again(world, island, 1, &effort);
+  try_by(world, island, island->taken, 1, &effort); /* another method may damp what this one keeps */
   bool helped = stands(world, island, MISS_OF_LOAD);
   set_patience(world, island, helped);
   if (!helped) remember_best(world, island, best);

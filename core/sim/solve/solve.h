@@ -142,12 +142,13 @@ typedef struct SporeIsland {
   double *q1, *v1;
   bool in_place; /* q1 and v1 lie in next_q and next_v */
   SporeIntegratorKind integrator;
-  size_t substeps;         /* of the integrator */
-  bool multirate;          /* its bodies have different integrators or substeps: see multirate.c */
-  double gravity_momentum; /* (M g . g)^(1/2), a scale for residuals */
-  double least_force;      /* where there is no gravity, the same of SPORE_LEAST_GRAVITY; else 0 */
-  SporeHistory history;    /* in the local vectors */
-  uint32_t attempts;       /* made at this step */
+  SporeIntegratorKind taken; /* by the first attempt at this step */
+  size_t substeps;           /* of the integrator */
+  bool multirate;            /* its bodies have different integrators or substeps: see multirate.c */
+  double gravity_momentum;   /* (M g . g)^(1/2), a scale for residuals */
+  double least_force;        /* where there is no gravity, the same of SPORE_LEAST_GRAVITY; else 0 */
+  SporeHistory history;      /* in the local vectors */
+  uint32_t attempts;         /* made at this step */
   SporeKeptEquations equations;
   /* What came of the step. */
   SporeStepResult result;
