@@ -2,7 +2,6 @@
  * first and at its last turn on every way by which the program comes to it, in the smallest shipped scene that goes
  * that way. What cannot be made is refused for want of memory, a step goes on without what it has no room for, and
  * nothing leaks (the sanitizer looks). */
-#include <execinfo.h>
 #include <glib.h>
 #include <string.h>
 
@@ -11,9 +10,9 @@
 #include "core/io/scene_xml.h"
 #include "core/scene/compile.h"
 #include "models/registry.h"
+#include "tests/ways.h"
 
 #define STEPS 8
-#define FRAMES 6 /* of the stack, which tell one way to an allocation from another */
 
 /* What happened in a life of a scene. */
 typedef struct Life {
@@ -26,61 +25,6 @@ typedef struct Scene {
   char *file;
   guint64 allocations; /* of a whole life */
 } Scene;
-
-/* The linker sends the kernel's calls of spore_allocate, spore_reallocate, spore_grow and spore_copy_text here
- * (--wrap), so that the test sees from where each comes. */
-void *__real_spore_allocate(size_t count, size_t size);
-void *__wrap_spore_allocate(size_t count, size_t size);
-void *__real_spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
-void *__wrap_spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
-void *__real_spore_grow(void *memory, size_t *capacity, size_t first, size_t size);
-void *__wrap_spore_grow(void *memory, size_t *capacity, size_t first, size_t size);
-char *__real_spore_copy_text(const char *text);
-char *__wrap_spore_copy_text(const char *text);
-
-typedef struct Turns {
-  guint64 first, last; /* number of the allocation in the life, from 1 */
-} Turns;
-
-static GHashTable *ways;   /* of Turns, by hash of the frames; NULL: nothing is noted */
-static GHashTable *failed; /* hashes of the ways that failed in a scene before */
-static guint64 life_start;
-
-static void note_way(void) {
-  if (!ways) return;
-  void *frames[FRAMES + 2] = {NULL};
-  int count = backtrace(frames, FRAMES + 2);
-  guint64 way = 0;
-  for (int i = 2; i < count; i++) way = way * 1099511628211u + (guint64)(guintptr)frames[i];
-  guint64 turn = spore_allocation_count() - life_start + 1;
-  Turns *turns = g_hash_table_lookup(ways, &way);
-  if (!turns) {
-    turns = g_new0(Turns, 1);
-    turns->first = turn;
-    g_hash_table_insert(ways, g_memdup2(&way, sizeof way), turns);
-  }
-  turns->last = turn;
-}
-
-void *__wrap_spore_allocate(size_t count, size_t size) {
-  note_way();
-  return __real_spore_allocate(count, size);
-}
-
-void *__wrap_spore_reallocate(void *memory, size_t old_count, size_t count, size_t size) {
-  note_way();
-  return __real_spore_reallocate(memory, old_count, count, size);
-}
-
-void *__wrap_spore_grow(void *memory, size_t *capacity, size_t first, size_t size) {
-  note_way();
-  return __real_spore_grow(memory, capacity, first, size);
-}
-
-char *__wrap_spore_copy_text(const char *text) {
-  note_way();
-  return __real_spore_copy_text(text);
-}
 
 /* Steps, changes levels both ways, and reads what is published. */
 static void run(SporeWorld *world) {
@@ -119,7 +63,7 @@ static void coarsen(SporeDocument *document) {
 static Life live(SporeSchema *schema, const char *file, guint64 failing) {
   Life life = {0};
   GError *error = NULL;
-  guint64 start = life_start = spore_allocation_count();
+  guint64 start = spore_allocation_count();
   spore_allocation_fail_at(failing);
   SporeDocument *document = spore_scene_load(schema, file, &error);
   life.read = document != NULL;
@@ -140,28 +84,11 @@ static Life live(SporeSchema *schema, const char *file, guint64 failing) {
   return life;
 }
 
-static int compare(gconstpointer a, gconstpointer b) {
-  guint64 x = *(const guint64 *)a, y = *(const guint64 *)b;
-  return (x > y) - (x < y);
-}
-
 /* The allocations that are to fail, each once. */
 static GArray *choose(SporeSchema *schema, const char *file, Life *whole) {
-  GArray *chosen = g_array_new(FALSE, FALSE, sizeof(guint64));
-  ways = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, g_free);
+  ways_begin();
   *whole = live(schema, file, 0);
-  GHashTableIter iterator;
-  gpointer way, turns;
-  g_hash_table_iter_init(&iterator, ways);
-  while (g_hash_table_iter_next(&iterator, &way, &turns)) {
-    const Turns *of = turns;
-    if (!g_hash_table_add(failed, g_memdup2(way, sizeof(guint64)))) continue;
-    g_array_append_val(chosen, of->first);
-    if (of->last > of->first) g_array_append_val(chosen, of->last);
-  }
-  g_clear_pointer(&ways, g_hash_table_unref);
-  g_array_sort(chosen, compare);
-  return chosen;
+  return ways_end(NULL);
 }
 
 static void test_scene(gconstpointer data) {
@@ -215,13 +142,12 @@ static GPtrArray *list_scenes(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_autoptr(GPtrArray) scenes = list_scenes();
-  failed = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
   for (guint i = 0; i < scenes->len; i++) {
     const Scene *scene = scenes->pdata[i];
     g_autofree char *name = g_path_get_basename(scene->file), *path = g_strconcat("/memory/", name, NULL);
     g_test_add_data_func(path, scene, test_scene);
   }
   int status = g_test_run();
-  g_hash_table_unref(failed);
+  ways_clear();
   return status;
 }

@@ -302,10 +302,11 @@ static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeT
   const gboolean all = asked == SPORE_TETRAHEDRA_METHODS;
   bool tried[SPORE_TETRAHEDRA_METHODS] = {false};
   GString *reasons = g_string_new(NULL);
+  g_autoptr(GError) memory = NULL; /* of the first method that had too little */
   gboolean done = FALSE, hopeless = FALSE;
   for (SporeTetrahedraMethod method = all ? 0 : asked; method < SPORE_TETRAHEDRA_METHODS && !done && !hopeless;
        method = all ? next_method(work, tried) : SPORE_TETRAHEDRA_METHODS) {
-    GError *failure = NULL;
+    g_autoptr(GError) failure = NULL;
     report->method = method;
     tried[method] = true;
     done = attempt(work, method, mesh, &failure);
@@ -315,9 +316,10 @@ static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeT
     g_strlcpy(report->refused[method], failure->message, sizeof report->refused[method]);
     g_string_append_printf(reasons, "%s%s: %.*s", reasons->len ? ", " : "", spore_tetrahedra_method_names[method],
                            (int)strcspn(failure->message, ";"), failure->message);
-    g_error_free(failure);
+    if (!memory && failure->code == SPORE_ERROR_MEMORY) memory = g_steal_pointer(&failure);
   }
-  if (!done && !hopeless)
+  if (!done && !hopeless && memory) spore_error_raise(error, SPORE_ERROR_MEMORY, place, "%s", memory->message);
+  else if (!done && !hopeless)
     spore_error_raise(error, SPORE_ERROR_NUMERICAL, place,
                       all ? _("no tetrahedra could be made (%s); expected a surface that encloses a volume; close its "
                               "holes, simplify it, or ask for another number of cells")

@@ -1,0 +1,147 @@
+/* Generators while memory runs short: each allocation of the kernel fails, at its first and at its last turn on every
+ * way by which a small input comes to it. A generator then refuses for want of memory, or does without; nothing leaks
+ * (the sanitizer looks). */
+#include <glib.h>
+#include <math.h>
+
+#include "core/base/memory.h"
+#include "core/generate/centreline/centreline.h"
+#include "core/generate/labels/labels.h"
+#include "core/generate/surface/surface.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
+#include "tests/mesh/shapes.h"
+#include "tests/ways.h"
+
+typedef bool Work(GError **error);
+
+/* Made before anything fails. */
+static SporeTriangleMesh ball, coarse, box, capsule;
+
+static bool surface(GError **to) {
+  SporeTriangleMesh result = {0};
+  SporeSurfaceReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  bool fine = spore_surface_from_mesh(&ball, &(SporeSimplifyOptions){.vertices = 40}, &result, &report, NULL, &error);
+  spore_triangle_mesh_clear(&result);
+  return fine || spore_error_propagate(&error, to);
+}
+
+static bool wall(GError **to) {
+  SporeTriangleMesh inner = {0}, both = {0};
+  SporeWallReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  bool fine = spore_wall_inner(&coarse, 0.012, 4, &inner, &report, NULL, &error) &&
+              spore_wall_solid(&coarse, &inner, &both, &error);
+  spore_triangle_mesh_clear(&both);
+  spore_triangle_mesh_clear(&inner);
+  return fine || spore_error_propagate(&error, to);
+}
+
+/* All of them, on a box that has a hole and whose triangles share no corner. */
+static bool operations(GError **to) {
+  SporeTriangleMesh mesh = {0};
+  SporeError error = SPORE_ERROR_INIT;
+  bool fine = spore_triangle_mesh_copy(&mesh, &box, &error);
+  for (int kind = 0; fine && kind < SPORE_MESH_OPERATIONS; kind++) {
+    const SporeMeshOperation *operation = &spore_mesh_operations[kind];
+    double argument = operation->argument ? fmax(operation->usual, operation->minimum) : 0;
+    fine = spore_mesh_operate(&mesh, (SporeMeshOperationKind)kind, argument, NULL, NULL, &error);
+  }
+  spore_triangle_mesh_clear(&mesh);
+  return fine || spore_error_propagate(&error, to);
+}
+
+static bool centreline(GError **to) {
+  SporeCurve curve = {0};
+  SporeCentrelineOptions options = {.ends_given = true, .ends = {{0, 0, -0.015}, {0, 0, 0.015}}, .points = 9};
+  SporeCentrelineReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  bool fine = spore_centreline_from_mesh(&capsule, &options, &curve, &report, NULL, &error) &&
+              spore_centreline_measure(&capsule, &curve, &report, &error);
+  spore_curve_clear(&curve);
+  return fine || spore_error_propagate(&error, to);
+}
+
+static bool lattice(GError **to) {
+  SporeTetrahedralMesh cells = {0};
+  SporeTetrahedraReport report;
+  SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_VOXELS, .size = 0.02};
+  bool fine = spore_tetrahedra_from_mesh("ball", &coarse, &options, &cells, &report, NULL, to);
+  spore_tetrahedral_mesh_clear(&cells);
+  return fine;
+}
+
+/* Two organs that touch. */
+#define VOXELS 4
+static bool label_cells(GError **to) {
+  uint16_t voxels[VOXELS * VOXELS * VOXELS] = {0};
+  for (size_t z = 1; z < VOXELS - 1; z++)
+    for (size_t y = 1; y < VOXELS - 1; y++)
+      for (size_t x = 1; x < VOXELS - 1; x++) voxels[(z * VOXELS + y) * VOXELS + x] = x < VOXELS / 2 ? 1 : 2;
+  const double edge = 0.002;
+  SporeLabelMap map = {
+      .size = {VOXELS, VOXELS, VOXELS}, .labels = voxels, .axes = {edge, 0, 0, 0, 0, edge, 0, 0, 0, 0, edge, 0}};
+  SporeTriangleMesh skin = {0};
+  SporeTetrahedralMesh cells = {0};
+  SporeLabelTetrahedraReport report = {0};
+  SporeError error = SPORE_ERROR_INIT;
+  if (!spore_label_surface(&map, 1, &skin, NULL, &error)) return spore_error_propagate(&error, to);
+  spore_triangle_mesh_clear(&skin);
+  bool fine =
+      spore_label_tetrahedra("map", &map, &(SporeLabelTetrahedraOptions){.size = 0.002}, &cells, &report, NULL, to);
+  spore_tetrahedral_mesh_clear(&cells);
+  g_clear_pointer(&report.labels, g_array_unref);
+  return fine;
+}
+
+/* most: failures; of what takes long, as many evenly. */
+typedef struct Part {
+  const char *path;
+  Work *work;
+  guint most;
+} Part;
+
+static void fail_each(gconstpointer data) {
+  const Part *part = data;
+  GError *error = NULL;
+  guint count, refused = 0;
+  ways_begin();
+  bool whole = part->work(&error);
+  g_assert_no_error(error);
+  g_assert_true(whole);
+  g_autoptr(GArray) failing = ways_end(&count);
+  guint stride = MAX(failing->len / part->most, 1);
+  for (guint i = 0; i < failing->len; i += stride) {
+    spore_allocation_fail_at(g_array_index(failing, guint64, i));
+    bool fine = part->work(&error);
+    spore_allocation_fail_at(0);
+    if (!fine) g_assert_error(error, SPORE_ERROR, SPORE_ERROR_MEMORY);
+    refused += !fine;
+    g_clear_error(&error);
+  }
+  g_test_message("%u ways to an allocation: refused %u times of %u", count, refused,
+                 (failing->len + stride - 1) / stride);
+  g_assert_cmpuint(refused, >, 0);
+}
+
+int main(int argc, char **argv) {
+  static const Part parts[] = {{"/generate/memory/surface", surface, G_MAXUINT},
+                               {"/generate/memory/wall", wall, 8},
+                               {"/generate/memory/operations", operations, G_MAXUINT},
+                               {"/generate/memory/centreline", centreline, 8},
+                               {"/generate/memory/lattice", lattice, 8},
+                               {"/generate/memory/labels", label_cells, G_MAXUINT}};
+  g_test_init(&argc, &argv, NULL);
+  shape_ball(&ball, 0.02, 6);
+  shape_ball(&coarse, 0.02, 4);
+  shape_capsule(&capsule, 0.01, 0.012, 4);
+  shape_box(&box, (double[3]){0, 0, 0}, (double[3]){0.02, 0.02, 0.02}, 4);
+  shape_unweld(&box);
+  box.triangle_count--;
+  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) g_test_add_data_func(parts[i].path, &parts[i], fail_each);
+  int status = g_test_run();
+  ways_clear();
+  SporeTriangleMesh *inputs[] = {&ball, &coarse, &capsule, &box};
+  for (size_t i = 0; i < G_N_ELEMENTS(inputs); i++) spore_triangle_mesh_clear(inputs[i]);
+  return status;
+}
