@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include "app/helpers/import_assimp.h"
+#include "app/helpers/serve.h"
 #include "app/helpers/vtk.h"
-#include "core/io/helper.h"
 #include "core/io/import_wire.h"
 #include "core/io/mesh_format.h"
 
@@ -34,16 +34,12 @@ static bool decode(uint64_t format, const char *content, size_t size, void **ans
   return BY_ASSIMP(extensions[format], content, size, answer, answer_size, failure);
 }
 
-int main(int argc, char **argv) {
-  spore_helper_start(argc, argv);
-  void *request, *answer;
-  size_t size, answer_size;
+static bool answer(const uint8_t *request, size_t size, void **answer, size_t *answer_size,
+                   SporeHelperFailure *failure) {
   SporeImportRequest head;
-  if (!spore_helper_read_request(&request, &size) || size < sizeof head) _exit(1);
+  if (size < sizeof head) _exit(1);
   memcpy(&head, request, sizeof head);
-  SporeHelperFailure failure;
-  if (decode(head.format, (const char *)request + sizeof head, size - sizeof head, &answer, &answer_size, &failure))
-    spore_helper_send_answer(answer, answer_size);
-  else spore_helper_send_error(failure.code, failure.message, failure.detail);
-  _exit(0);
+  return decode(head.format, (const char *)request + sizeof head, size - sizeof head, answer, answer_size, failure);
 }
+
+int main(int argc, char **argv) { spore_helper_serve(argc, argv, answer); }

@@ -1,18 +1,6 @@
 /* spore-volume: decodes a label map's bytes, in the sandbox. */
 #include "app/helpers/volume.h"
 
-#include <unistd.h>
+#include "app/helpers/serve.h"
 
-#include "core/io/helper.h"
-
-int main(int argc, char **argv) {
-  spore_helper_start(argc, argv);
-  void *request, *answer;
-  size_t size, answer_size;
-  SporeHelperFailure failure;
-  if (!spore_helper_read_request(&request, &size)) _exit(1);
-  if (spore_volume_decode(request, size, &answer, &answer_size, &failure))
-    spore_helper_send_answer(answer, answer_size);
-  else spore_helper_send_error(failure.code, failure.message, failure.detail);
-  _exit(0);
-}
+int main(int argc, char **argv) { spore_helper_serve(argc, argv, spore_volume_decode); }

@@ -102,6 +102,11 @@ double spore_contact_term_parting(SporeContactTerm *term, const SporeSite *sites
   return spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, x));
 }
 
+void spore_contact_term_set_arms(SporeContactTerm *term, double radius_a, double radius_b) {
+  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
+  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+}
+
 /* The end is where it is at q; the arm leads from there to the contact point. */
 static void follow_end(SporeEnd *end, SporeVec3 position, SporeVec3 arm, SporeVec3 *frame_arm, const SporeSite *sites,
                        const double *q) {
@@ -121,8 +126,7 @@ void spore_contact_term_follow(SporeContactTerm *term, double radius_a, double r
   if (distance > 0) term->normal = spore_vec3_scale(1 / distance, apart);
   term->stretch = spore_contact_turn_stretch(stretch, term->normal);
   term->depth = radius_a + radius_b - distance;
-  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
-  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+  spore_contact_term_set_arms(term, radius_a, radius_b);
   follow_end(&term->a, a, term->arm_a, &term->frame_arm_a, sites, q);
   follow_end(&term->b, b, term->arm_b, &term->frame_arm_b, sites, q);
 }

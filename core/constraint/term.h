@@ -101,6 +101,8 @@ void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, cons
 /* How fast end a parts from end b along the normal, by a vector x of velocities (or accelerations) at q, of what
  * physics moves. */
 double spore_contact_term_parting(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *x);
+/* Sets the arms of the contact of two spheres by its normal and depth. */
+void spore_contact_term_set_arms(SporeContactTerm *term, double radius_a, double radius_b);
 /* Makes the contact of two spheres the one that is found at q, as if a step began there: with its normal, depth and
  * arms, and what is left of its stretch. A contact with a depth field stays as it is. */
 void spore_contact_term_follow(SporeContactTerm *term, double radius_a, double radius_b, const SporeSite *sites,

@@ -45,11 +45,10 @@ struct SporeBody {
   SporePreconditioner preconditioner;
   SporeBodyHistory history;
   SporeBodySleep sleep;
-  double own_energy;              /* kinetic and of the model, when the energy watch began, J */
-  uint32_t pause, pauses;         /* steps until recovery tries smaller steps again; length of the last pause */
-  uint32_t impatient, impatience; /* recoveries until one is patient again; how many there were the last time */
-  uint32_t hopeless;              /* steps that could not be solved at all, in a row: see recovery.c */
-  uint64_t hopeless_step;         /* number of the last one */
+  double own_energy;            /* kinetic and of the model, when the energy watch began, J */
+  SporePause pause, impatience; /* of recovery by smaller steps, in steps; and with patience, in recoveries */
+  uint32_t hopeless;            /* steps that could not be solved at all, in a row: see recovery.c */
+  uint64_t hopeless_step;       /* number of the last one */
   SporeReported reported;
   SporeChangingMatrix changing; /* of a body that is split or refined */
   SporeNodeSplitting splitting;

@@ -39,7 +39,7 @@ static SporeWorld *make(double stiffness, int64_t newton, int64_t linear) {
 /* The phases of a step, after some others, up to the first attempt, which is kept in q, v. */
 static SporeIsland *attempt(SporeWorld *world, unsigned before, double *q, double *v) {
   for (unsigned i = 0; i < before; i++) spore_world_step(world);
-  world->bodies[0].pause = 0;
+  world->bodies[0].pause.left = 0;
   spore_world_link(world);
   spore_world_find_islands(world);
   SporeIsland *island = &world->solve.islands[0];
@@ -112,9 +112,9 @@ static void test_pause(void) {
     if (monitor->recoveries == recoveries) continue;
     g_assert_cmpuint(step, >=, again);
     const SporeBody *body = &world->bodies[0];
-    g_assert_cmpuint(body->pauses, ==, body->pauses == 0 ? 0 : pauses == 0 ? 1 : 2 * pauses);
-    again = step + body->pauses + 1;
-    pauses = body->pauses;
+    g_assert_cmpuint(body->pause.length, ==, body->pause.length == 0 ? 0 : pauses == 0 ? 1 : 2 * pauses);
+    again = step + body->pause.length + 1;
+    pauses = body->pause.length;
     helped += pauses == 0;
     useless += pauses > 0;
     in_vain = MAX(in_vain, pauses);

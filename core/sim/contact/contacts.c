@@ -194,11 +194,9 @@ static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVe
 /* Arms lead from the centres of the spheres to the contact point, in the middle of the depth. */
 static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
   assert(term->sphere_a < world->contact.spheres.count && term->sphere_b < world->contact.spheres.count);
-  double radius_a = world->contact.spheres.radius[term->sphere_a],
-         radius_b = world->contact.spheres.radius[term->sphere_b];
+  const double *radius = world->contact.spheres.radius;
   SporeVec3 apart = spore_vec3_sub(term->b.position, term->a.position);
-  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
-  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+  spore_contact_term_set_arms(term, radius[term->sphere_a], radius[term->sphere_b]);
   if (term->field_a) term->arm_a = spore_vec3_add(term->arm_b, apart);
   if (term->field_b) term->arm_b = spore_vec3_sub(term->arm_a, apart);
   term->frame_arm_a = frame_arm(world, &term->a, term->arm_a);

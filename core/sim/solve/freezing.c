@@ -87,6 +87,7 @@ void spore_island_freeze(SporeWorld *world, SporeIsland *island, uint32_t index)
 
 void spore_body_thaw(SporeBody *body) {
   body->frozen = false;
-  body->hopeless = body->pause = body->pauses = body->impatient = body->impatience = 0;
+  body->hopeless = 0;
+  body->pause = body->impatience = (SporePause){0, 0};
   body->reported.trouble = SPORE_TROUBLE_NONE;
 }

@@ -1,13 +1,13 @@
 /* Impacts of rigid bodies. How fast a body leaves an impact depends on how well the impact is followed: a step that is
- * long for the contact takes energy away, or makes some. So an island of rigid bodies that meet, press or part faster
- * than what rests takes its step in parts: by velocity Verlet, which keeps momentum and, to a thousandth or two,
- * energy; each a tenth of a radian of the stiffest contact as long as something touches, and up to the next touch in
- * one part. With each part, contacts follow their spheres: a normal that stays while the ball rolls off a sphere is
+ * long for the contact takes energy away, or makes some. So an island of one or two rigid bodies that meet, press or
+ * part faster than what rests takes its step in parts: by velocity Verlet, which keeps momentum and, to a thousandth or
+ * two, energy; each a tenth of a radian of the stiffest contact as long as something touches, and up to the next touch
+ * in one part. With each part, contacts follow their spheres: a normal that stays while the ball rolls off a sphere is
  * that of another slope, and makes energy.
  *
  * What rests, slides or is pushed evenly has no impact, and takes its step by its own method; so does what overlaps
- * since it was put there, as its exit is damped in full (core/collide/response.h). Nor do bodies with links or of many
- * nodes: the impact of a soft body is that of its nodes, whose own swings its step does not follow either. */
+ * since it was put there, as its exit is damped in full (core/collide/response.h). Not followed are bodies with links,
+ * and soft ones: the impact of a soft body is that of its nodes, whose own swings its step does not follow either. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -19,7 +19,7 @@
 #define CERTAIN 0.5            /* of the slowest impact: what is slower by a first look has none */
 #define MOST_EVALUATIONS 65536 /* of contacts, and of MANY more a part, in all parts of a step */
 #define MANY 16
-#define MOST_BODIES 2 /* more may meet where the step has not looked for contacts: see all_rigid */
+#define MOST_BODIES 2 /* of more, what leaves one may meet the next where the step has not looked for contacts */
 
 typedef struct Impact {
   SporeWorld *world;
@@ -30,9 +30,9 @@ typedef struct Impact {
   double *force; /* at the start of a part; then scratch */
 } Impact;
 
-/* How fast the ends part along the normal by x, of the bodies that physics moves. */
-static double parting(const Impact *impact, SporeContactTerm *term, const double *x) {
-  return spore_contact_term_parting(term, impact->world->solve.local_sites, impact->island->q0, x);
+/* How fast the ends part along the normal by x, of the bodies that physics moves, at q. */
+static double parting(const Impact *impact, SporeContactTerm *term, const double *q, const double *x) {
+  return spore_contact_term_parting(term, impact->world->solve.local_sites, q, x);
 }
 
 static double driven(const SporeContactTerm *term) {
@@ -77,8 +77,8 @@ static bool strikes(Impact *impact) {
   for (size_t i = 0; i < island->contact_count; i++) {
     SporeContactTerm *term = spore_island_system_contact(&impact->system, i);
     overlap |= term->overlap > 0;
-    double speed = parting(impact, term, island->v0) + driven(term);
-    double gained = swing_s * parting(impact, term, acceleration);
+    double speed = parting(impact, term, island->q0, island->v0) + driven(term);
+    double gained = swing_s * parting(impact, term, island->q0, acceleration);
     if (term->depth <= 0 && speed >= 0) continue;
     any |= speed * speed + gained * gained > least * least;
   }
@@ -120,12 +120,12 @@ SporeImpacts spore_body_impacts(const SporeWorld *world, uint32_t index) {
 bool spore_island_strikes(SporeWorld *world, SporeIsland *island, double *part_s) {
   assert(part_s && island->q0 && island->v0);
   if (island->contact_count == 0 || island->spring_count > 0 || island->multirate || !may_strike(world, island) ||
-      !all_rigid(world, island))
+      !all_rigid(world, island) || follows(world, island->integrator))
     return false;
   Impact impact = {.world = world, .island = island};
   impact.system = (SporeIslandSystem){.world = world, .island = island, .now_s = -1};
   *part_s = impact.part_s = spore_island_system_short_step(&impact.system, PART);
-  return impact.part_s > 0 && !follows(world, island->integrator) && strikes(&impact);
+  return impact.part_s > 0 && strikes(&impact);
 }
 
 /* Contacts follow their spheres to q, where time begins anew for them. */
@@ -146,7 +146,7 @@ static double next_part(Impact *impact, const double *q, const double *v, double
   double until = left;
   for (size_t i = 0; i < impact->island->contact_count; i++) {
     SporeContactTerm *term = spore_island_system_contact(&impact->system, i);
-    double speed = spore_contact_term_parting(term, impact->world->solve.local_sites, q, v) + driven(term);
+    double speed = parting(impact, term, q, v) + driven(term);
     if (term->depth > 0) until = fmin(until, impact->part_s);
     else if (speed < 0) until = fmin(until, fmax(impact->part_s, term->depth / speed));
   }

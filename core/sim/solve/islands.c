@@ -253,7 +253,7 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
 }
 
 bool spore_body_is_hopeless(const SporeWorld *world, const SporeBody *body) {
-  return body->hopeless > 0 && world->state.step <= body->hopeless_step + body->pauses + 1;
+  return body->hopeless > 0 && world->state.step <= body->hopeless_step + body->pause.length + 1;
 }
 
 bool spore_island_is_hopeless(const SporeWorld *world, const SporeIsland *island) {

@@ -146,7 +146,8 @@ void spore_body_forget_steps(SporeWorld *world, SporeBody *body) {
   body->preconditioner.matrix_c = 0;
   body->history.step_s = 0;
   world->solve.watch.started = false;
-  body->pause = body->pauses = body->impatient = body->impatience = body->hopeless = 0;
+  body->hopeless = 0;
+  body->pause = body->impatience = (SporePause){0, 0};
   spore_body_reset_choice(world, body);
 }
 

@@ -126,25 +126,25 @@ static bool stands(const SporeWorld *world, const SporeIsland *island, double mi
   return residual <= miss && island->integrator != SPORE_INTEGRATOR_STATIC && !gained_energy(world, island);
 }
 
-/* Smaller steps that did not help are not tried again at once, but after a pause, which doubles each time. */
-static bool pauses(SporeWorld *world, const SporeIsland *island) {
+static SporePause *pause_of(SporeBody *body) { return &body->pause; }
+static SporePause *impatience_of(SporeBody *body) { return &body->impatience; }
+
+/* What did not help is not tried again at once, but after a pause, which doubles each time. */
+static bool pauses(SporeWorld *world, const SporeIsland *island, SporePause *(*of)(SporeBody *body)) {
   bool paused = false;
   for (size_t i = 0; i < island->kept_count; i++) {
-    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    if (body->pause > 0) paused = true, body->pause--;
+    SporePause *pause = of(&world->bodies[world->solve.island_bodies[island->body_start + i]]);
+    if (pause->left > 0) paused = true, pause->left--;
   }
   return paused;
 }
 
-static uint32_t longer_pause(uint32_t last, bool helped) {
-  return helped ? 0 : last == 0 ? 1 : last < PAUSE_MAXIMUM ? 2 * last : PAUSE_MAXIMUM;
-}
-
-static void set_pause(SporeWorld *world, const SporeIsland *island, bool helped) {
+static void set_pause(SporeWorld *world, const SporeIsland *island, SporePause *(*of)(SporeBody *body), bool helped) {
   for (size_t i = 0; i < island->kept_count; i++) {
-    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    body->pauses = longer_pause(body->pauses, helped);
-    body->pause = body->pauses;
+    SporePause *pause = of(&world->bodies[world->solve.island_bodies[island->body_start + i]]);
+    uint32_t last = pause->length;
+    pause->length = helped ? 0 : last == 0 ? 1 : last < PAUSE_MAXIMUM ? 2 * last : PAUSE_MAXIMUM;
+    pause->left = pause->length;
   }
 }
 
@@ -250,24 +250,6 @@ static bool despairs(SporeWorld *world, const SporeIsland *island) {
   return despairs;
 }
 
-/* Patience that did not help is not had again at once, as with smaller steps. */
-static bool is_patient(SporeWorld *world, const SporeIsland *island) {
-  bool patient = true;
-  for (size_t i = 0; i < island->kept_count; i++) {
-    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    if (body->impatient > 0) patient = false, body->impatient--;
-  }
-  return patient;
-}
-
-static void set_patience(SporeWorld *world, const SporeIsland *island, bool helped) {
-  for (size_t i = 0; i < island->kept_count; i++) {
-    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
-    body->impatience = longer_pause(body->impatience, helped);
-    body->impatient = body->impatience;
-  }
-}
-
 /* Takes the step as a whole, with as many iterations as all smaller steps may take together: what is stiff and buckles
  * needs them in each of the smaller steps, too. Not where it hardly gets one linear system solved. */
 static bool try_patiently(SporeWorld *world, SporeIsland *island, Best *best) {
@@ -276,14 +258,14 @@ static bool try_patiently(SporeWorld *world, SporeIsland *island, Best *best) {
   bool ran_out = first->newton_iterations >= (size_t)world->solver.newton_iterations ||
                  first->residual > SPORE_HOPELESS; /* else more iterations do not help */
   if (island->trouble != SPORE_TROUBLE_NOT_CONVERGED || hard || !ran_out || spore_island_is_hopeless(world, island) ||
-      !is_patient(world, island))
+      pauses(world, island, impatience_of))
     return false;
   SporeEffort effort = {.iterations = EFFORT * (size_t)world->solver.newton_iterations * island->substeps,
                         .hopeless = HUGE_VAL,
                         .patience = EFFORT};
   try_by(world, island, island->taken, 1, &effort); /* another method may damp what this one keeps */
   bool helped = stands(world, island, MISS_OF_LOAD);
-  set_patience(world, island, helped);
+  set_pause(world, island, impatience_of, helped);
   if (!helped) remember_best(world, island, best);
   return helped;
 }
@@ -312,7 +294,7 @@ static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   if (!helped && best.worth <= WORTH_GAINED && island->contact_count > 0)
     helped = try_without_friction(world, island, iterations);
   if (!helped && best.worth > WORTH_NOTHING) restore_best(world, island, &best);
-  set_pause(world, island, helped);
+  set_pause(world, island, pause_of, helped);
   return helped || best.least < SPORE_HOPELESS;
 }
 
@@ -365,7 +347,7 @@ static void stay(SporeIsland *island) {
 /* In the end island->trouble is the worst trouble, and island->offender the body that had the first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   assert(island->offender < world->body_count);
-  bool paused = pauses(world, island);
+  bool paused = pauses(world, island, pause_of);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
   bool balance = seeks_balance(world, island);
   if (balance && island->trouble == SPORE_TROUBLE_NOT_CONVERGED) {

@@ -94,6 +94,11 @@ typedef struct SporeEnergyWatch {
   double work, turnover; /* of what drives: sum of the work since then, and of its size */
 } SporeEnergyWatch;
 
+/* Until a way of recovery that did not help is tried again: see recovery.c. */
+typedef struct SporePause {
+  uint32_t left, length;
+} SporePause;
+
 /* Rest and sleep of a body: see sleep.c. */
 typedef struct SporeBodySleep {
   bool asleep;
@@ -278,11 +283,11 @@ SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t body, size_t *resolv
 /* impact.c */
 /* How far the impacts of a passive body are followed. */
 SporeImpacts spore_body_impacts(const SporeWorld *world, uint32_t body);
-/* Whether the island is of rigid bodies alone that meet, press or part faster than its own method follows; then *part_s
- * is the step that follows the impact. */
+/* Whether the island is of one or two rigid bodies, without links, in an impact that its own method does not follow;
+ * then *part_s is the step that follows it. */
 bool spore_island_strikes(SporeWorld *world, SporeIsland *island, double *part_s);
-/* Takes the island through one step in parts of that length. Its contacts end as they are found when the last part
- * begins, with their mean force. */
+/* Takes the island through one step in parts of that length. Its contacts end as they are found there, with their mean
+ * force. */
 SporeStepResult spore_island_advance_impact(SporeWorld *world, SporeIsland *island, double part_s);
 
 /* multirate.c: one step of an island whose bodies move by several methods, or have contacts or links that their
