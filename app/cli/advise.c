@@ -338,7 +338,8 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
           "level of each body: budget_us (for per_s of simulated time), met, kept_promise, promise_us, runs (of "
           "again_us), before and chosen (dt_s, nonlinear, linear, error: by the length of a body, resolved: it is more "
           "than can be told, as_written, us: for per_s, step_us and p99_us of its own steps, again_us: median, low, "
-          "high), tried, start_s, time_s, contacts, floor, happens (what instruments do in one of the two alone), "
+          "high), tried (runs of the search), together (of them, of several changes at once), start_s, time_s, "
+          "contacts, floor, happens (what instruments do in one of the two alone), "
           "applied, cut")},
       {"scene", N_("file that was written, with --apply or --output")},
       {NULL, NULL}};

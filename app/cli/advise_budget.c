@@ -107,6 +107,7 @@ static void report_budget(SporeCli *cli, const SporeBudget *budget, gboolean app
   report_form(cli, "before", &budget->before);
   report_form(cli, "chosen", &budget->chosen);
   spore_cli_count(cli, "tried", budget->tried);
+  spore_cli_count(cli, "together", budget->together);
   spore_cli_number(cli, "start_s", budget->start_s);
   spore_cli_number(cli, "time_s", budget->time_s);
   spore_cli_number(cli, "contacts", budget->contacts);
@@ -130,8 +131,8 @@ static void say_chosen(SporeCli *cli, const SporeBudget *budget) {
                 budget->budget_us, 1e3 * budget->step_s, 1e6 * budget->step_s / budget->budget_us);
   spore_cli_say(cli,
                 _("measured over %.3g s of the input from %.3g s on, with %.2g contacts a step; %u other choices "
-                  "were run\n"),
-                budget->time_s, budget->start_s, budget->contacts, budget->tried);
+                  "were run, %u of them of several changes at once\n"),
+                budget->time_s, budget->start_s, budget->contacts, budget->tried, budget->together);
   spore_cli_say(cli, "%-10s %9s %14s %12s\n", "", _("step ms"), _("error"), _("us"));
   say_form(cli, _("as it is"), before);
   say_form(cli, _("chosen"), chosen);

@@ -8,10 +8,12 @@
 #include "core/author/accuracy_study.h"
 #include "core/author/budget_private.h"
 #include "core/author/edits.h"
+#include "core/integrate/integrator.h"
 #include "core/measure/quantile.h"
+#include "core/sim/solve/step_limit.h"
 
-#define METHODS 5
 #define STEPS 4            /* of each method, in the study */
+#define EXPLICIT_PARTS 16  /* of the scene's step: an explicit method whose steps have to be smaller is left out */
 #define LEAST_SEARCH 0.25  /* of the time on the processor: what the search has when the study took all */
 #define STUDY_PROGRESS 0.6 /* of all that is told of progress */
 #define SEARCH_PROGRESS 0.2
@@ -38,6 +40,19 @@ static const char *reason_of(const SporeBudgetOptions *options, const SporeWorld
   return NULL;
 }
 
+/* The largest steps that the methods bear on the body, by what is stiff in it. */
+static void find_limits(SporeBudgetSubject *subject, const SporeWorld *world) {
+  const SporeModel *model = spore_world_body_model(world, subject->body);
+  const double *q = spore_world_q(world, subject->body), *v = spore_world_v(world, subject->body);
+  for (int kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
+    SporeStepLimit limit;
+    subject->limit_s[kind] = HUGE_VAL;
+    if (spore_integrator((SporeIntegratorKind)kind)->implicit || !spore_budget_may_pay(kind)) continue;
+    if (!spore_step_limit(model, (SporeIntegratorKind)kind, q, v, NULL, 0, &limit, NULL)) continue;
+    subject->limit_s[kind] = limit.dt_s;
+  }
+}
+
 static void add_subject(SporeBudgetSearch *search, const SporeWorld *world, guint32 body, const SporeMethod *method) {
   SporeBudgetSubject *subject = &search->subjects[search->count];
   SporeBudgetBody *row = &search->result->bodies[search->count++];
@@ -48,7 +63,9 @@ static void add_subject(SporeBudgetSearch *search, const SporeWorld *world, guin
                                   .integrator = integrator_called(method->integrator.name),
                                   .substeps = method->substeps,
                                   .level = has_levels ? (int)state.level : -1,
-                                  .particles = spore_world_body_model(world, body)->type->rates != NULL};
+                                  .particles = spore_world_body_model(world, body)->type->rates != NULL,
+                                  .sweeps = spore_model_sweeps(spore_world_body_model(world, body))};
+  find_limits(subject, world);
   row->name = g_strdup(subject->name);
   row->integrator[0] = method->integrator.name;
   row->level[0] = has_levels ? spore_lod_names[state.level] : NULL;
@@ -82,20 +99,39 @@ static gboolean begins_coarse(const SporeBudgetSearch *search) {
   return FALSE;
 }
 
-/* Methods of the study: the scene's own and a few that are near to it in cost; none where nothing but particles moves,
+/* The smallest of the largest steps that the method bears on the bodies. */
+static double limit_of(const SporeBudgetSearch *search, int kind) {
+  double least = HUGE_VAL;
+  for (gsize i = 0; i < search->count; i++) least = fmin(least, search->subjects[i].limit_s[kind]);
+  return least;
+}
+
+/* Whether the study is of this method. Why not is told, where it is a matter of the scene. */
+static gboolean is_studied(const SporeBudgetSearch *search, int kind, GStrvBuilder *cuts) {
+  gboolean sweeps = FALSE;
+  for (gsize i = 0; i < search->count; i++) sweeps |= search->subjects[i].sweeps;
+  if (!spore_budget_may_pay(kind) || (spore_integrator((SporeIntegratorKind)kind)->sweeps && !sweeps)) return FALSE;
+  double limit_s = limit_of(search, kind);
+  if (limit_s * EXPLICIT_PARTS >= search->result->step_s) return TRUE;
+  g_autofree char *cut = g_strdup_printf(_("%s for all bodies: what is stiff allows steps of %.2g ms at most"),
+                                         spore_integrator_names[kind], 1e3 * limit_s);
+  g_strv_builder_add(cuts, cut);
+  return FALSE;
+}
+
+/* Methods of the study: the scene's own and all others that may be as cheap; none where nothing but particles moves,
  * for which the study knows better. */
 static gsize choose_methods(const SporeBudgetSearch *search, const SporeAccuracyScene *scene,
-                            SporeAccuracyMethod methods[METHODS]) {
-  static const SporeIntegratorKind usual[] = {SPORE_INTEGRATOR_IMPLICIT_EULER, SPORE_INTEGRATOR_TR_BDF2,
-                                              SPORE_INTEGRATOR_BDF2, SPORE_INTEGRATOR_SYMPLECTIC_EULER};
+                            SporeAccuracyMethod methods[SPORE_INTEGRATOR_COUNT], GStrvBuilder *cuts) {
+  const SporeIntegratorKind own = scene->own.integrator;
   gsize count = 0;
   gboolean particles = TRUE;
   for (gsize i = 0; i < search->count; i++) particles &= search->subjects[i].particles;
   if (particles) return 0;
-  if (scene->own.integrator >= 0 && scene->own.integrator != SPORE_INTEGRATOR_STATIC)
-    methods[count++] = (SporeAccuracyMethod){scene->own.integrator, -1, -1};
-  for (gsize k = 0; k < G_N_ELEMENTS(usual); k++)
-    if (count == 0 || usual[k] != methods[0].integrator) methods[count++] = (SporeAccuracyMethod){usual[k], -1, -1};
+  if (own >= 0 && own != SPORE_INTEGRATOR_STATIC) methods[count++] = (SporeAccuracyMethod){own, -1, -1};
+  for (int kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++)
+    if (kind != (int)own && is_studied(search, kind, cuts))
+      methods[count++] = (SporeAccuracyMethod){(SporeIntegratorKind)kind, -1, -1};
   return count;
 }
 
@@ -104,14 +140,15 @@ static gboolean study(SporeBudgetSearch *search, const SporeAccuracyScene *scene
   const SporeBudgetOptions *options = search->options;
   SporeBudget *result = search->result;
   static const int fine = SPORE_LOD_FINE;
-  SporeAccuracyMethod methods[METHODS];
+  SporeAccuracyMethod methods[SPORE_INTEGRATOR_COUNT];
+  g_autoptr(GStrvBuilder) cuts = g_strv_builder_new();
   gboolean coarse = begins_coarse(search);
   double most_s = options->most_s > 0 ? options->most_s : SPORE_BUDGET_USUAL_S;
   search->until_s = spore_processor_s() + most_s;
   const SporeAccuracyOptions wanted = {.levels = &fine,
                                        .level_count = coarse ? 1 : 0,
                                        .methods = methods,
-                                       .method_count = choose_methods(search, scene, methods),
+                                       .method_count = choose_methods(search, scene, methods, cuts),
                                        .dt_most = STEPS,
                                        .time_s = options->time_s,
                                        .most_s = most_s,
@@ -124,8 +161,8 @@ static gboolean study(SporeBudgetSearch *search, const SporeAccuracyScene *scene
   result->start_s = search->report->start_s, result->time_s = search->report->time_s;
   result->contacts = search->report->contacts, result->floor = search->report->floor;
   result->statistics = search->report->statistics;
-  result->cuts = g_new0(char *, search->report->cut_count + 1);
-  for (gsize i = 0; i < search->report->cut_count; i++) result->cuts[i] = g_strdup(search->report->cuts[i]);
+  for (gsize i = 0; i < search->report->cut_count; i++) g_strv_builder_add(cuts, search->report->cuts[i]);
+  result->cuts = g_strv_builder_end(cuts);
   return TRUE;
 }
 
@@ -221,6 +258,16 @@ static void fill_bodies(SporeBudgetSearch *search, const SporeBudgetChoice *chos
   for (gsize i = 0; i < search->count; i++) result->settings[i].body = result->bodies[i].name;
 }
 
+/* Adds to what was cut that the search ended early. */
+static void say_ended(SporeBudget *result) {
+  g_autoptr(GStrvBuilder) cuts = g_strv_builder_new();
+  g_autofree char *cut = g_strdup_printf(_("the search ended after %u runs, for want of time"), result->tried);
+  g_strv_builder_addv(cuts, (const char **)result->cuts);
+  g_strv_builder_add(cuts, cut);
+  g_strfreev(result->cuts);
+  result->cuts = g_strv_builder_end(cuts);
+}
+
 static gboolean choose(SporeBudgetSearch *search, SporeDocument *document, SporeError *fault) {
   SporeBudget *result = search->result;
   SporeSolverFields solver;
@@ -228,6 +275,7 @@ static gboolean choose(SporeBudgetSearch *search, SporeDocument *document, Spore
   if (!measure_own(search, fault)) return FALSE;
   SporeBudgetChoice *chosen = spore_budget_search(search, fault), *own = search->tried->pdata[0];
   if (!chosen) return FALSE;
+  if (search->ended) say_ended(result);
   spore_object_fields(spore_document_section(document, "solver"), &solver);
   result->before = form_of(search, own, &solver);
   result->chosen = form_of(search, chosen, &solver);
@@ -239,7 +287,7 @@ static gboolean choose(SporeBudgetSearch *search, SporeDocument *document, Spore
 SporeBudget *spore_budget_find(SporeDocument *document, const SporeSimulation *simulation, SporePool *pool,
                                const SporeTrack *input, const SporeBudgetOptions *options, GError **error) {
   g_autoptr(SporeBudget) result = g_new0(SporeBudget, 1);
-  SporeBudgetSearch search = {.options = options, .result = result};
+  SporeBudgetSearch search = {.options = options, .result = result, .measure = spore_budget_measure};
   SporeError fault = SPORE_ERROR_INIT;
   result->budget_us = options->budget_us;
   result->step_s = spore_object_number(spore_document_section(document, "solver"), "time_step");

@@ -4,9 +4,9 @@
  * The budget is time on the processor for as much simulated time as one step of the scene takes now: a scene of 4 ms
  * steps that may take 1000 us runs four times faster than real time, whatever step is chosen. Candidates are the points
  * of an accuracy study (core/measure/accuracy.h): all methods, steps and levels, each with its measured error and cost.
- * From the best of them that fits, single bodies, solvers and the step are changed one at a time while that helps;
- * every candidate is run and judged against the same reference. What was chosen is timed again beside the scene as it
- * is. */
+ * From the best of them that fits, single bodies, solvers and the step are changed one at a time while that helps, and
+ * then several of them at once, the best few by what each did alone; every candidate is run and judged against the same
+ * reference. What was chosen is timed again beside the scene as it is. */
 #ifndef SPORE_AUTHOR_BUDGET_H
 #define SPORE_AUTHOR_BUDGET_H
 
@@ -54,12 +54,12 @@ typedef struct SporeBudget {
   SporeBudgetForm before, chosen; /* chosen: where nothing fits the cheapest that was found */
   gsize body_count;
   SporeBudgetBody *bodies;
-  guint tried;                      /* runs of the search */
+  guint tried, together;            /* runs of the search; of them, of several changes at once that a forecast chose */
   double start_s, time_s, contacts; /* of the stretch; contacts: mean a step */
   double floor;                     /* errors below cannot be told */
   gboolean statistics;              /* errors are of mean places over the stretch */
   const char *happens;              /* translated: what instruments do in one of the forms alone; NULL: nothing */
-  char **cuts;                      /* NULL at the end: what the study left out */
+  char **cuts;                      /* NULL at the end: what the study and the search left out */
   SporeAccuracyReport *report;      /* of the study */
   gint64 time;                      /* when it ended, Unix time, s */
   gsize setting_count;

@@ -7,6 +7,10 @@
 #define NEARER 0.97  /* of the error: less than that is nearer */
 #define CHEAPER 0.95 /* of the cost: less than that is cheaper */
 
+gboolean spore_budget_may_pay(int integrator) {
+  return integrator != SPORE_INTEGRATOR_STATIC && integrator != SPORE_INTEGRATOR_EXPLICIT_EULER;
+}
+
 SporeBudgetChoice *spore_budget_choice_new(const SporeBudgetSearch *search, double dt_s) {
   SporeBudgetChoice *choice = g_new0(SporeBudgetChoice, 1);
   choice->dt_s = dt_s;

@@ -14,6 +14,8 @@ typedef struct SporeBudgetSubject {
   int level; /* as it is */
   gboolean levels[SPORE_LOD_COUNT];
   gboolean keeps_level, keeps_integrator, particles;
+  gboolean sweeps;                        /* its elements can be met one after the other */
+  double limit_s[SPORE_INTEGRATOR_COUNT]; /* the largest stable step of explicit methods; of implicit ones infinite */
 } SporeBudgetSubject;
 
 /* A choice for the whole scene; -1: as it is. */
@@ -24,8 +26,13 @@ typedef struct SporeBudgetChoice {
   SporeAccuracyPoint point;
 } SporeBudgetChoice;
 
+typedef struct SporeBudgetSearch SporeBudgetSearch;
+/* Runs and judges a choice. FALSE: cancelled, or no memory. */
+typedef gboolean (*SporeBudgetMeasure)(SporeBudgetSearch *search, SporeBudgetChoice *choice, gboolean timed_only,
+                                       SporeAccuracyPoint *point, SporeError *error);
+
 /* A search while it goes on. */
-typedef struct SporeBudgetSearch {
+struct SporeBudgetSearch {
   const SporeBudgetOptions *options;
   SporeBudget *result;
   SporeAccuracyReport *report;
@@ -33,11 +40,16 @@ typedef struct SporeBudgetSearch {
   SporeBudgetSubject *subjects;
   GPtrArray *tried; /* of SporeBudgetChoice; the first is the scene as it is */
   SporeProgressShare share;
+  SporeBudgetMeasure measure;
   double limit;   /* s on the processor for a simulated s */
   double until_s; /* on the processor: the search ends then */
-} SporeBudgetSearch;
+  gboolean ended; /* for want of time */
+};
 
 /* budget_choice.c */
+/* Whether an integrator is tried: all are but static, which finds a balance, and explicit_euler, since symplectic_euler
+ * does the same work, is of the same order and bears larger steps. */
+gboolean spore_budget_may_pay(int integrator);
 SporeBudgetChoice *spore_budget_choice_new(const SporeBudgetSearch *search, double dt_s);
 SporeBudgetChoice *spore_budget_choice_copy(const SporeBudgetSearch *search, const SporeBudgetChoice *choice);
 void spore_budget_choice_free(gpointer choice);
@@ -56,11 +68,21 @@ gboolean spore_budget_choice_fits(const SporeBudgetSearch *search, const SporeBu
 gboolean spore_budget_choice_is_better(const SporeBudgetSearch *search, const SporeBudgetChoice *a,
                                        const SporeBudgetChoice *b);
 
-/* budget_search.c */
-/* Runs and judges a choice. FALSE: cancelled, or no memory. */
+/* budget_try.c */
+/* SporeBudgetMeasure over the stretch of the study. */
 gboolean spore_budget_measure(SporeBudgetSearch *search, SporeBudgetChoice *choice, gboolean timed_only,
                               SporeAccuracyPoint *point, SporeError *error);
+gboolean spore_budget_was_tried(const SporeBudgetSearch *search, const SporeBudgetChoice *choice);
+/* Tries a choice, which `tried` takes over; *best becomes it where it is better. FALSE: cancelled, or no memory. */
+gboolean spore_budget_try(SporeBudgetSearch *search, SporeBudgetChoice *choice, SporeBudgetChoice **best,
+                          SporeError *error);
+
+/* budget_search.c */
 /* The best choice that was found, which `tried` owns. NULL: cancelled, or no memory. */
 SporeBudgetChoice *spore_budget_search(SporeBudgetSearch *search, SporeError *error);
+
+/* budget_together.c */
+/* Tries several changes of the best choice at once, by what each of them did alone. FALSE: cancelled, or no memory. */
+gboolean spore_budget_try_together(SporeBudgetSearch *search, SporeBudgetChoice **best, SporeError *error);
 
 #endif

@@ -6,41 +6,11 @@
 #include "core/integrate/integrator.h"
 #include "core/measure/quantile.h"
 
-#define PASSES 2  /* over all moves */
-#define METHODS 3 /* integrators that are tried on single bodies */
+#define ROUNDS 2  /* of single changes, and then of several at once */
+#define PASSES 4  /* over all single changes, a round */
+#define METHODS 3 /* integrators of the study that are tried on single bodies */
 #define CHECKS 4  /* choices that are timed again before one is promised */
 #define TIMED_RUNS 3
-
-gboolean spore_budget_measure(SporeBudgetSearch *search, SporeBudgetChoice *choice, gboolean timed_only,
-                              SporeAccuracyPoint *point, SporeError *error) {
-  g_autofree SporeBodySetting *settings = g_new(SporeBodySetting, search->count);
-  const SporeVariation variation = spore_budget_choice_variation(search, choice, settings);
-  const SporeAccuracyWorld world = {.level = -1, .dt_s = choice->dt_s, .choice = &variation};
-  return spore_accuracy_measure_more(search->report, &world, timed_only, point, error);
-}
-
-static gboolean was_tried(const SporeBudgetSearch *search, const SporeBudgetChoice *choice) {
-  for (guint i = 0; i < search->tried->len; i++)
-    if (spore_budget_choice_equal(search, choice, search->tried->pdata[i])) return TRUE;
-  return FALSE;
-}
-
-/* Tries a choice, which `tried` takes over; *best becomes it where it is better. FALSE: cancelled. */
-static gboolean try_choice(SporeBudgetSearch *search, SporeBudgetChoice *choice, SporeBudgetChoice **best,
-                           SporeError *error) {
-  if (was_tried(search, choice) || spore_processor_s() > search->until_s) {
-    spore_budget_choice_free(choice);
-    return TRUE;
-  }
-  if (!spore_budget_measure(search, choice, FALSE, &choice->point, error)) {
-    spore_budget_choice_free(choice);
-    return FALSE;
-  }
-  g_ptr_array_add(search->tried, choice);
-  search->result->tried++;
-  if (spore_budget_choice_is_better(search, choice, *best)) *best = choice;
-  return TRUE;
-}
 
 /* Moves: each changes one thing of the best choice so far. */
 
@@ -50,13 +20,19 @@ static gboolean move_level(SporeBudgetSearch *search, gsize subject, SporeBudget
     if (!body->levels[level]) continue;
     SporeBudgetChoice *choice = spore_budget_choice_copy(search, *best);
     choice->level[subject] = level == body->level ? -1 : level;
-    if (!try_choice(search, choice, best, error)) return FALSE;
+    if (!spore_budget_try(search, choice, best, error)) return FALSE;
   }
   return TRUE;
 }
 
+static gboolean is_known(const int *kinds, gsize count, int kind) {
+  for (gsize k = 0; k < count; k++)
+    if (kinds[k] == kind) return TRUE;
+  return FALSE;
+}
+
 /* Integrators of the study's Pareto set, those that cost least first; -1: as it is. */
-static gsize usual_integrators(const SporeBudgetSearch *search, int kinds[METHODS + 1]) {
+static gsize usual_integrators(const SporeBudgetSearch *search, int *kinds) {
   gsize count = 0;
   double after = 0;
   kinds[count++] = -1;
@@ -69,24 +45,33 @@ static gsize usual_integrators(const SporeBudgetSearch *search, int kinds[METHOD
     if (!next) return count;
     after = next->cost;
     int kind = (int)search->report->methods[next->method].method.integrator;
-    gboolean known = FALSE;
-    for (gsize k = 0; k < count; k++) known |= kinds[k] == kind;
-    if (!known) kinds[count++] = kind;
+    if (!is_known(kinds, count, kind)) kinds[count++] = kind;
+  }
+  return count;
+}
+
+/* Adds what may do for this body though not for all of them: explicit methods that bear the step. */
+static gsize add_explicit(const SporeBudgetSubject *body, double dt_s, int *kinds, gsize count) {
+  for (int kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
+    const SporeIntegrator *integrator = spore_integrator((SporeIntegratorKind)kind);
+    gboolean bears = spore_budget_may_pay(kind) && (body->sweeps || !integrator->sweeps) && body->limit_s[kind] >= dt_s;
+    if (!integrator->implicit && bears && !is_known(kinds, count, kind)) kinds[count++] = kind;
   }
   return count;
 }
 
 static gboolean move_integrator(SporeBudgetSearch *search, gsize subject, SporeBudgetChoice **best, SporeError *error) {
   const SporeBudgetSubject *body = &search->subjects[subject];
-  int kinds[METHODS + 1];
+  int kinds[METHODS + 1 + SPORE_INTEGRATOR_COUNT];
   gsize count = body->keeps_integrator || search->count == 1 ? 0 : usual_integrators(search, kinds);
+  if (count > 0) count = add_explicit(body, (*best)->dt_s, kinds, count);
   for (gsize k = 0; k < count; k++) {
     gboolean own = kinds[k] == (int)body->integrator && body->substeps == 1;
     if (own || (kinds[k] >= 0 && body->particles && spore_integrator((SporeIntegratorKind)kinds[k])->implicit))
       continue;
     SporeBudgetChoice *choice = spore_budget_choice_copy(search, *best);
     choice->integrator[subject] = kinds[k];
-    if (!try_choice(search, choice, best, error)) return FALSE;
+    if (!spore_budget_try(search, choice, best, error)) return FALSE;
   }
   return TRUE;
 }
@@ -104,13 +89,13 @@ static gboolean move_solvers(SporeBudgetSearch *search, SporeBudgetChoice **best
   for (int kind = SPORE_NONLINEAR_NEWTON; is_implicit(search, *best) && spore_nonlinear_names[kind]; kind++) {
     SporeBudgetChoice *choice = spore_budget_choice_copy(search, *best);
     choice->nonlinear = kind;
-    if (!try_choice(search, choice, best, error)) return FALSE;
+    if (!spore_budget_try(search, choice, best, error)) return FALSE;
   }
   for (int kind = SPORE_LINEAR_CONJUGATE_GRADIENTS; is_implicit(search, *best) && kind <= SPORE_LINEAR_CHOLESKY;
        kind++) {
     SporeBudgetChoice *choice = spore_budget_choice_copy(search, *best);
     choice->linear = kind;
-    if (!try_choice(search, choice, best, error)) return FALSE;
+    if (!spore_budget_try(search, choice, best, error)) return FALSE;
   }
   return TRUE;
 }
@@ -124,17 +109,28 @@ static gboolean move_step(SporeBudgetSearch *search, SporeBudgetChoice **best, S
     double dt_s = spore_trial_step(interval_s, fmin(wanted[k], longest_s));
     SporeBudgetChoice *choice = spore_budget_choice_copy(search, *best);
     choice->dt_s = dt_s;
-    if (!try_choice(search, choice, best, error)) return FALSE;
+    if (!spore_budget_try(search, choice, best, error)) return FALSE;
   }
   return TRUE;
 }
 
-static gboolean improve(SporeBudgetSearch *search, SporeBudgetChoice **best, SporeError *error) {
+/* Single changes, each of the best choice so far. */
+static gboolean climb(SporeBudgetSearch *search, SporeBudgetChoice **best, SporeError *error) {
   for (int pass = 0; pass < PASSES; pass++) {
     const SporeBudgetChoice *before = *best;
     for (gsize i = 0; i < search->count; i++)
       if (!move_level(search, i, best, error) || !move_integrator(search, i, best, error)) return FALSE;
     if (!move_solvers(search, best, error) || !move_step(search, best, error)) return FALSE;
+    if (*best == before) break;
+  }
+  return TRUE;
+}
+
+static gboolean improve(SporeBudgetSearch *search, SporeBudgetChoice **best, SporeError *error) {
+  for (int round = 0; round < ROUNDS; round++) {
+    if (!climb(search, best, error)) return FALSE;
+    const SporeBudgetChoice *before = *best;
+    if (!spore_budget_try_together(search, best, error)) return FALSE;
     if (*best == before) break;
   }
   return TRUE;
@@ -152,7 +148,7 @@ static gboolean time_again(SporeBudgetSearch *search, SporeBudgetChoice *choice,
   double costs[TIMED_RUNS];
   for (int i = 0; i < TIMED_RUNS; i++) {
     SporeAccuracyPoint point;
-    if (!spore_budget_measure(search, choice, TRUE, &point, error)) return FALSE;
+    if (!search->measure(search, choice, TRUE, &point, error)) return FALSE;
     costs[i] = point.cost;
   }
   choice->point.cost = spore_quantile(costs, TIMED_RUNS, 0.5);
@@ -162,7 +158,7 @@ static gboolean time_again(SporeBudgetSearch *search, SporeBudgetChoice *choice,
 SporeBudgetChoice *spore_budget_search(SporeBudgetSearch *search, SporeError *error) {
   for (gsize i = 0; i < search->report->point_count; i++) {
     SporeBudgetChoice *choice = spore_budget_choice_of_point(search, &search->report->points[i]);
-    if (was_tried(search, choice)) spore_budget_choice_free(choice);
+    if (spore_budget_was_tried(search, choice)) spore_budget_choice_free(choice);
     else g_ptr_array_add(search->tried, choice);
   }
   SporeBudgetChoice *best = best_of(search);

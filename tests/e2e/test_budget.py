@@ -51,6 +51,7 @@ def advise(scene, budget, *arguments):
     # us is for the time that a step of the scene takes now, step_us for a step of the form's own.
     for form in (before, chosen):
         assert abs(form["step_us"] / form["us"] - form["dt_s"] / given["per_s"]) < 1e-9, form
+    assert 0 <= given["together"] <= given["tried"], given
     assert given["promise_us"] == chosen["us"] and given["per_s"] == before["dt_s"], given
     return answer
 
