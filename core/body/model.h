@@ -38,6 +38,7 @@ typedef struct SporeGeometry {
   const SporeTriangleMesh *surface;
   const SporeTetrahedralMesh *tetrahedra;
   const SporeCurve *curve;
+  const SporeCurve *root;      /* for types that take a root; NULL: none */
   const SporeRegions *regions; /* for types that take regions; create counts their elements; NULL: none */
   const SporeCancel *cancel;   /* ends create; NULL: nothing does */
 } SporeGeometry;
@@ -209,6 +210,7 @@ struct SporeModelType {
   SporeGeometryKind geometry;
   const SporePreset *presets; /* ended by one without a name; NULL: none */
   bool regions;               /* takes regions of other stiffness and density */
+  bool root;                  /* takes a root, from which what holds the body begins */
 
   /* Required. */
   /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place

@@ -69,6 +69,21 @@ static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechan
   return type->geometry != SPORE_GEOMETRY_SOLID || is_solid(compiler, mechanical, asset, geometry->surface);
 }
 
+/* Finds the root of what holds the body, which the mechanical unit names. */
+static gboolean find_root(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
+                          SporeGeometry *geometry) {
+  SporeObject *asset;
+  if (!spore_compiler_resolve(compiler, mechanical, "root", &asset)) return FALSE;
+  if (!asset) return TRUE;
+  if (!type->root)
+    return spore_compiler_refuse(compiler, mechanical,
+                                 _("root=\"%s\" is the root of a mesentery, and %s has none; expected it of an "
+                                   "intestine alone; take root out"),
+                                 spore_object_name(asset), type->name);
+  geometry->root = spore_document_curve(compiler->document, asset, compiler->error);
+  return geometry->root != NULL;
+}
+
 /* The object of a body's model, or NULL. */
 static SporeObject *model_object(const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
@@ -148,8 +163,9 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   const SporeModelType *type = spore_object_type(object)->model;
   SporeRegions regions = {0};
   SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
-  gboolean described =
-      find_geometry(compiler, mechanical, type, &geometry) && find_regions(compiler, body, object, &regions);
+  gboolean described = find_geometry(compiler, mechanical, type, &geometry) &&
+                       find_root(compiler, mechanical, type, &geometry) &&
+                       find_regions(compiler, body, object, &regions);
   g_autofree SporeRegion *owned = regions.regions;
   if (!described) return FALSE;
   SporeError fault = SPORE_ERROR_INIT;
@@ -177,7 +193,9 @@ static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, Sp
   spore_object_fields(level, &level_fields);
   const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
   const SporeObject *body = spore_object_parent(spore_object_parent(model));
-  gboolean described = find_geometry(compiler, from, type, &geometry) && find_regions(compiler, body, model, &regions);
+  gboolean described = find_geometry(compiler, from, type, &geometry) &&
+                       find_root(compiler, spore_object_parent(model), type, &geometry) &&
+                       find_regions(compiler, body, model, &regions);
   g_autofree SporeRegion *owned = regions.regions;
   if (!described) return FALSE;
   g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));

@@ -58,6 +58,15 @@ static const SporeParameter mechanical_parameters[] = {
      FIELD(SporeMechanicalFields, geometry),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Asset that the model is built from.")},
+    {.name = "root",
+     .type = SPORE_REFERENCE,
+     .unit = "",
+     .references = "curve",
+     FIELD(SporeMechanicalFields, root),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Curve, in the body's frame, from which the mesentery of an intestine begins: it holds each point of "
+               "the bowel by its distance at rest, and is slack where the bowel is nearer; none: it draws each point "
+               "to its place at rest.")},
     {.name = "integrator",
      .type = SPORE_CHOICE,
      .unit = "",

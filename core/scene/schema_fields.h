@@ -37,7 +37,7 @@ typedef struct SporeBodyFields {
 } SporeBodyFields;
 
 typedef struct SporeMechanicalFields {
-  const char *geometry;
+  const char *geometry, *root;
   int integrator;   /* 0: the scene's; else SporeIntegratorKind + 1 */
   int64_t substeps; /* 0: the scene's */
   int material;     /* of spore_material_names */

@@ -20,6 +20,7 @@ bool spore_virtual_core_allocate(SporeVirtualCore *core, size_t count) {
 void spore_virtual_core_clear(SporeVirtualCore *core) {
   spore_free(core->weight);
   spore_free(core->place);
+  spore_free(core->slack);
   spore_free(core->blocks);
   *core = (SporeVirtualCore){0};
 }
@@ -50,6 +51,18 @@ bool spore_virtual_core_spread(SporeVirtualCore *core, const double *rest, const
       _("the core's smallest moment of inertia is %g kg m^2; a positive one was expected; check unit "
         "and mesh"),
       core->inertia.moment[0]);
+}
+
+bool spore_virtual_core_slacken(SporeVirtualCore *core, const double *feet, const double *rest) {
+  assert(core->count > 0 && !core->slack);
+  core->slack = SPORE_NEW_ARRAY(double, core->count);
+  if (!core->slack) return false;
+  for (size_t i = 0; i < core->count; i++) {
+    SporeVec3 foot = spore_vec3_load(feet + 3 * i);
+    core->slack[i] = spore_vec3_distance(spore_vec3_load(rest + 3 * i), foot);
+    spore_vec3_store(core->place + 3 * i, spore_vec3_sub(foot, core->centre));
+  }
+  return true;
 }
 
 bool spore_virtual_core_pattern(const SporeVirtualCore *core, SporeBlockPattern *pattern) {
@@ -131,6 +144,13 @@ static SporeVec3 away(const State *state, const double *q, size_t i, SporeVec3 s
   return spore_vec3_sub(spore_vec3_sub(spore_vec3_load(q + 3 * i), state->centre), s);
 }
 
+/* How much of the tie is stretched, m, and its direction n: 0 where it has none. */
+static double stretch_of(const SporeVirtualCore *core, size_t i, SporeVec3 d, SporeVec3 *n) {
+  double length = fmax(spore_vec3_length(d), SPORE_VIRTUAL_CORE_SHORTEST);
+  *n = spore_vec3_scale(1 / length, d);
+  return fmax(length - (core->slack ? core->slack[i] : 0), 0);
+}
+
 void spore_virtual_core_force(const SporeVirtualCore *core, const double *q, const double *shape, const double *v,
                               double *f) {
   assert(f != q && f != v);
@@ -142,13 +162,15 @@ double spore_virtual_core_potential(const SporeVirtualCore *core, const double *
   State state = state_at(core, q);
   double sum = 0;
   for (size_t i = 0; i < core->count; i++) {
-    SporeVec3 d = away(&state, q, i, place_of(core, &state, i));
-    sum += 0.5 * core->stiffness * core->weight[i] * spore_vec3_dot(d, d);
+    SporeVec3 n, d = away(&state, q, i, place_of(core, &state, i));
+    double stretch = core->slack ? stretch_of(core, i, d, &n) : 0;
+    sum += 0.5 * core->stiffness * core->weight[i] * (core->slack ? stretch * stretch : spore_vec3_dot(d, d));
   }
   return sum;
 }
 
-/* Jacobian. With J = (1, -1, [a]x) for (node, centre, turning), a tie of weight k adds k J^T J. */
+/* Jacobian. With J = (1, -1, [a]x) for (node, centre, turning), a tie of weight k adds k J^T J. One that is stiffer
+ * along its direction n than across it, by k, adds k (J^T n) (J^T n)^T, and J^T n is (n, -n, n x a). */
 
 static void add(SporeBlockMatrix *matrix, uint32_t at, double scale, const SporeMat3 *block) {
   double *values = matrix->values + 9 * (size_t)at;
@@ -160,6 +182,8 @@ typedef struct CoreSum {
   double weight;     /* sum of k */
   SporeMat3 arm;     /* of k [a]x */
   SporeMat3 turning; /* of k [a]x^T [a]x */
+  SporeMat3 along;   /* of k n n^T */
+  SporeMat3 lever;   /* of k n (n x a)^T */
 } CoreSum;
 
 static void add_tie(const SporeVirtualCore *core, size_t i, double k, SporeVec3 a, SporeBlockMatrix *matrix,
@@ -178,8 +202,27 @@ static void add_tie(const SporeVirtualCore *core, size_t i, double k, SporeVec3 
   sum->turning = spore_mat3_sub(sum->turning, spore_mat3_scale(k, spore_mat3_multiply(skew, skew)));
 }
 
+static void add_along(const SporeVirtualCore *core, size_t i, double k, SporeVec3 n, SporeVec3 a,
+                      SporeBlockMatrix *matrix, CoreSum *sum) {
+  assert(i < core->count && k >= 0);
+  const SporeVirtualCoreBlocks *blocks = &core->blocks[i];
+  SporeVec3 turn = spore_vec3_cross(n, a);
+  SporeMat3 along = spore_mat3_outer(n, n), lever = spore_mat3_outer(n, turn), back = spore_mat3_outer(turn, n);
+  add(matrix, blocks->node, k, &along);
+  add(matrix, blocks->centre, -k, &along);
+  add(matrix, blocks->from_centre, -k, &along);
+  add(matrix, blocks->turning, k, &lever);
+  add(matrix, blocks->from_turning, k, &back);
+  sum->along = spore_mat3_add(sum->along, spore_mat3_scale(k, along));
+  sum->lever = spore_mat3_add(sum->lever, spore_mat3_scale(k, lever));
+  sum->turning = spore_mat3_add(sum->turning, spore_mat3_scale(k, spore_mat3_outer(turn, turn)));
+}
+
 static void add_core(const SporeVirtualCore *core, const CoreSum *sum, SporeBlockMatrix *matrix) {
-  const SporeMat3 one = spore_mat3_identity();
+  const SporeMat3 one = spore_mat3_identity(), lever_back = spore_mat3_transpose(sum->lever);
+  add(matrix, core->centre_block, 1, &sum->along);
+  add(matrix, core->across, -1, &sum->lever);
+  add(matrix, core->back, -1, &lever_back);
   add(matrix, core->centre_block, sum->weight, &one);
   add(matrix, core->turning_block, 1, &sum->turning);
   add(matrix, core->across, -1, &sum->arm);
@@ -198,6 +241,18 @@ static SporeMat3 positive_part(SporeMat3 a) {
   return part;
 }
 
+/* What a tie that may be slack is stiffer by along its direction than across. *across: across it. False: it is slack.
+ */
+static bool add_taut(const SporeVirtualCore *core, size_t i, double k, SporeVec3 d, SporeVec3 s,
+                     SporeBlockMatrix *matrix, CoreSum *sum, double *across) {
+  SporeVec3 n;
+  double stretch = stretch_of(core, i, d, &n);
+  if (!(stretch > 0)) return false;
+  *across = k * stretch / (stretch + core->slack[i]);
+  add_along(core, i, k - *across, n, s, matrix, sum);
+  return true;
+}
+
 /* Elastic ties; turning the core also turns the places, which adds the symmetric part of k ((d.s) 1 - s d^T). */
 static void shape_jacobian(const SporeVirtualCore *core, const double *q, double scale, bool whole,
                            SporeBlockMatrix *matrix) {
@@ -207,6 +262,7 @@ static void shape_jacobian(const SporeVirtualCore *core, const double *q, double
   for (size_t i = 0; i < core->count; i++) {
     double k = scale * core->stiffness * core->weight[i];
     SporeVec3 s = place_of(core, &state, i), d = away(&state, q, i, s);
+    if (core->slack && !add_taut(core, i, k, d, s, matrix, &sum, &k)) continue;
     double dot = spore_vec3_dot(d, s);
     add_tie(core, i, k, s, matrix, &sum);
     SporeMat3 both = spore_mat3_add(spore_mat3_outer(s, d), spore_mat3_outer(d, s));

@@ -3,6 +3,7 @@
  * force of the spring acts on the core too, as force and torque, so that both momenta are kept. With x a node, c the
  * centre of the core, s = R r the place of the node in the core's frame, and d = x - c - s:
  *   on the node  -k d - b (v - V - w x (x - c)),   on the core the opposite at x.
+ * A tie may be slack up to a length L, as a sheet is that folds; then k d is k (1 - L / |d|) d where |d| > L, else 0.
  * The tied nodes are the first nodes of the model, the core's centre is the node behind them, and the frame of the
  * model is the frame of the core. */
 #ifndef SPORE_MODELS_COMMON_VIRTUAL_CORE_H
@@ -18,10 +19,12 @@ typedef struct SporeVirtualCoreBlocks {
   uint32_t node, centre, turning, from_centre, from_turning;
 } SporeVirtualCoreBlocks;
 
+#define SPORE_VIRTUAL_CORE_SHORTEST 1e-300 /* m: a tie that is shorter has no direction */
 typedef struct SporeVirtualCore {
   size_t count;     /* of nodes tied */
   double *weight;   /* of each tie: what it stands for (m^2 of a surface, m of a line) */
-  double *place;    /* of each node in the core's frame, 3 each, m */
+  double *place;    /* where each tie begins, in the core's frame, 3 each, m */
+  double *slack;    /* up to which length each tie is slack, m; NULL: none is */
   SporeVec3 centre; /* of the core at rest, body's frame */
   SporeInertia inertia;
   double stiffness, damping; /* N/m and N s/m, for each unit of weight */
@@ -31,6 +34,9 @@ typedef struct SporeVirtualCore {
 
 /* Weights and places are 0. False: no memory. */
 bool spore_virtual_core_allocate(SporeVirtualCore *core, size_t count);
+/* Lets ties begin elsewhere than where their nodes are at rest, and be slack up to their length at rest. feet, rest:
+ * count x 3, body's frame, m. After spore_virtual_core_spread. False: no memory. */
+bool spore_virtual_core_slacken(SporeVirtualCore *core, const double *feet, const double *rest);
 void spore_virtual_core_clear(SporeVirtualCore *core);
 /* A core of `mass` (kg) that is spread as the nodes' masses are (node_mass, rest: count x 1, x 3, body's frame), each a
  * ball of `radius` (m, may be 0): same centre, same shape of inertia. Refused where it has no inertia about an axis. */

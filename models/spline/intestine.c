@@ -1,8 +1,10 @@
 /* An intestine (France, Lenoir, Angelidis, Meseure, Cani, Faure and Chaillou 2005, "A layered model of a virtual human
  * intestine for surgery simulation"): an axis that moves, spheres along it that touch the world and each other, a skin
  * drawn around it. The axis is a hollow spline (models/spline/spline.h). The mesentery ties each of its control points
- * to its place at rest in the frame of a core, the mesentery's root (models/common/virtual_core.h), with the part of
- * the line that the control point stands for. A pin at the root holds it in the belly. */
+ * to its place at rest in the frame of a core (models/common/virtual_core.h), with the part of the line that the
+ * control point stands for; or, where it has a root, to a place of that root (models/spline/mesentery.h): then it is a
+ * sheet that holds the bowel, and folds where the bowel is nearer than at rest. A pin at the core holds it in the
+ * belly. */
 #include <assert.h>
 #include <string.h>
 
@@ -12,6 +14,7 @@
 #include "models/common/virtual_core.h"
 #include "models/registry.h"
 #include "models/spline/line.h"
+#include "models/spline/mesentery.h"
 
 typedef struct IntestineFields {
   int64_t control_points;
@@ -50,9 +53,10 @@ static const SporeParameter parameters[] = {
     SPORE_REAL_FIELD(
         IntestineFields, damping, "s", 0, 1e6, 0.02, SPORE_CHANGE_LIVE,
         N_("Time by which stretch and bending of the wall lag behind their forces: viscosity over elasticity.")),
-    SPORE_REAL_FIELD(IntestineFields, mesentery_stiffness, "N/m^2", 0, 1e15, 300, SPORE_CHANGE_LIVE,
-                     N_("How strongly the mesentery draws the axis to its place at rest: force per length of the axis "
-                        "and distance. The intestine sags by its weight per length over this.")),
+    SPORE_REAL_FIELD(
+        IntestineFields, mesentery_stiffness, "N/m^2", 0, 1e15, 300, SPORE_CHANGE_LIVE,
+        N_("How strongly the mesentery draws the axis to its place at rest, or holds it by its root: force "
+           "per length of the axis and distance. The intestine sags by its weight per length over this.")),
     SPORE_REAL_FIELD(IntestineFields, mesentery_damping, "s", 0, 1e3, 0.05, SPORE_CHANGE_LIVE,
                      N_("Damping of motion against the mesentery's root: this time, times the stiffness.")),
     SPORE_REAL_FIELD(IntestineFields, mesentery_mass, "kg/m", 1e-6, 1e6, 0.05, SPORE_CHANGE_REBUILD,
@@ -91,7 +95,22 @@ static bool make_root(Intestine *body, const SporeCurve *curve, double mass_per_
   return spore_virtual_core_spread(&body->root, line->rest, line->mass, mass_per_length * length, radius, error);
 }
 
-static bool build(Intestine *body, const SporeCurve *curve, const IntestineFields *fields, SporeError *error) {
+/* Ties the line to the places of the root that the mesentery reaches it from. */
+static bool tie_to_root(Intestine *body, const SporeCurve *root, SporeError *error) {
+  const SporeSplineLine *line = &body->line;
+  if (!spore_curve_validate(root, error)) {
+    spore_error_at(error, "root");
+    return false;
+  }
+  double *feet = SPORE_NEW_ARRAY(double, 3 * line->control_count);
+  bool tied = feet && spore_mesentery_spread(root, line->rest, line->length, line->control_count, feet) &&
+              spore_virtual_core_slacken(&body->root, feet, line->rest);
+  spore_free(feet);
+  return tied || no_memory(error);
+}
+
+static bool build(Intestine *body, const SporeGeometry *geometry, const IntestineFields *fields, SporeError *error) {
+  const SporeCurve *curve = geometry->curve;
   size_t count = (size_t)fields->control_points;
   SporeSplineSection section = {
       .density = fields->density, .content_density = fields->content_density, .wall_thickness = fields->wall_thickness};
@@ -99,7 +118,8 @@ static bool build(Intestine *body, const SporeCurve *curve, const IntestineField
   SporeBlockMatrix matrix;
   if (!spore_model_init(&body->base, &spore_intestine, count + 1, true, error) ||
       !spore_spline_line_init(&body->line, curve, &density, &section, error) ||
-      !make_root(body, curve, fields->mesentery_mass, error))
+      !make_root(body, curve, fields->mesentery_mass, error) ||
+      (geometry->root && !tie_to_root(body, geometry->root, error)))
     return false;
   if (!spore_model_matrix_create(&body->base, &matrix)) return no_memory(error);
   spore_spline_find_blocks(&body->line.spline, &matrix);
@@ -115,7 +135,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->curve, fields, error)) return &body->base;
+  if (build(body, geometry, fields, error)) return &body->base;
   destroy(&body->base);
   return NULL;
 }
@@ -207,11 +227,13 @@ const SporeModelType spore_intestine = {
     .doc =
         N_("A bowel along a curve, with the curve's radius: a hollow axis that stretches and bends, spheres along it "
            "that touch other bodies and, where the collision unit says self, each other, and a mesentery that draws "
-           "it back to how it lies. Pin the mesentery's root, which is where the centre of mass is at rest, or the "
-           "intestine falls with it. The wall keeps how sharply it bends and knows no twist; what is "
+           "it back to how it lies or, where the mechanical unit names a root, holds it at a distance from that. Pin "
+           "the mesentery's frame, which is where the centre of mass is at rest, or the intestine falls with it. The "
+           "wall keeps how sharply it bends and knows no twist; what is "
            "drawn of it goes with frames along the axis that turn with the mesentery."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(IntestineFields)},
     .geometry = SPORE_GEOMETRY_CURVE,
+    .root = true,
     .create = create,
     .destroy = destroy,
     .place = place,

@@ -25,6 +25,19 @@ static void shape(Specimen *specimen, const char *name) {
   if (!strcmp(name, "one_cell")) shape_block(&specimen->tetrahedra, 1, 1, 1, spore_vec3(0.02, 0.02, 0.02));
 }
 
+/* The same curve, smaller, about its middle. */
+static void shape_inside(SporeCurve *inside, const SporeCurve *curve) {
+  SporeVec3 middle = {0, 0, 0};
+  g_assert_true(spore_curve_allocate(inside, curve->count, NULL));
+  for (size_t i = 0; i < curve->count; i++)
+    middle = spore_vec3_add_scaled(middle, 1.0 / (double)curve->count, spore_vec3_load(curve->points + 4 * i));
+  for (size_t i = 0; i < curve->count; i++) {
+    SporeVec3 away = spore_vec3_sub(spore_vec3_load(curve->points + 4 * i), middle);
+    spore_vec3_store(inside->points + 4 * i, spore_vec3_add_scaled(middle, 0.4, away));
+    inside->points[4 * i + 3] = curve->points[4 * i + 3];
+  }
+}
+
 /* The parameter by which the type makes another kind of body of the same geometry, or NULL. */
 static const SporeParameter *variants_of(const SporeModelType *type) {
   int index = spore_parameter_find(&type->parameters, "element");
@@ -33,8 +46,9 @@ static const SporeParameter *variants_of(const SporeModelType *type) {
 }
 
 const char *specimen_variant(const SporeModelType *type, int variant) {
-  static const char *const twist[] = {"", "twist", NULL};
+  static const char *const twist[] = {"", "twist", NULL}, *const rooted[] = {"", "rooted", NULL};
   const SporeParameter *parameter = variants_of(type);
+  if (type->root) return rooted[variant];
   if (!parameter) return variant == 0 ? "" : NULL;
   return parameter->type == SPORE_CHOICE ? parameter->choices[variant] : twist[variant];
 }
@@ -68,6 +82,10 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name, int 
   set_cells(type, specimen->fields);
   shape(specimen, name);
   specimen->geometry = (SporeGeometry){&specimen->surface, &specimen->tetrahedra, &specimen->curve};
+  if (type->root && variant) {
+    shape_inside(&specimen->root, &specimen->curve);
+    specimen->geometry.root = &specimen->root;
+  }
   return specimen;
 }
 
@@ -75,6 +93,7 @@ void specimen_free(Specimen *specimen) {
   spore_triangle_mesh_clear(&specimen->surface);
   spore_tetrahedral_mesh_clear(&specimen->tetrahedra);
   spore_curve_clear(&specimen->curve);
+  spore_curve_clear(&specimen->root);
   g_free(specimen->fields);
   g_free(specimen->name);
   g_free(specimen);
@@ -136,6 +155,7 @@ Specimen *specimen_relabelled(const Specimen *specimen, const uint32_t *order) {
     memcpy(other->curve.points, specimen->curve.points, 4 * specimen->curve.count * sizeof(double));
   }
   other->geometry = (SporeGeometry){&other->surface, &other->tetrahedra, &other->curve};
+  other->geometry.root = specimen->geometry.root;
   return other;
 }
 

@@ -14,7 +14,7 @@ typedef struct Specimen {
   char *name; /* "mass_spring_net/box" */
   SporeTriangleMesh surface;
   SporeTetrahedralMesh tetrahedra;
-  SporeCurve curve;
+  SporeCurve curve, root;
   SporeGeometry geometry;
   void *fields; /* defaults */
   double size;  /* m, typical edge */
@@ -24,8 +24,8 @@ typedef struct Specimen {
 /* Calls check once for every specimen whose type `applies` (NULL: all), as test PREFIX/NAME. */
 void specimen_add_tests(const char *prefix, GTestDataFunc check, gboolean (*applies)(const SporeModelType *type));
 
-/* Kinds of body that a type makes of the same geometry (its parameter `element`, or whether it resists twist): their
- * names from 0 on, then NULL; "" where there is but one. */
+/* Kinds of body that a type makes of the same geometry (its parameter `element`, whether it resists twist, or has a
+ * root): their names from 0 on, then NULL; "" where there is but one. */
 const char *specimen_variant(const SporeModelType *type, int variant);
 void specimen_set_variant(const SporeModelType *type, int variant, void *fields);
 

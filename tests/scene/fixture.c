@@ -91,6 +91,7 @@ char *fixture_scene_folder_new(const char *scene) {
   g_free(fixture_write(folder, "felt.spheres", "# level 0.025\n0 0 0 0.1 0.5\n"));
   g_free(fixture_write(folder, "away.spheres", "0 0 0 0.05\n0.3 0 0 0.05\n"));
   g_free(fixture_write(folder, "far.spheres", "0 0 0 0.05\n0.8 0 0.8 0.05\n"));
+  g_free(fixture_write(folder, "line.curve", "0 0 0 0.002\n0.1 0 0 0.002\n"));
   g_free(fixture_write(folder, "scene.spore", scene));
   return folder;
 }

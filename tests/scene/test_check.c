@@ -307,6 +307,12 @@ static const Mistake mistakes[] = {
      BODIES(FLOOR "<body name=\"stone\">" STONE "\n<regions><region name=\"knot\" centre=\"0 0 0\"/></regions>" BALL
                   "</body>\n"),
      {"fault 6:1: rigid_body has no regions; expected tetrahedra or finite differences"}},
+    {"root-of-stone",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<curve name=\"line\" file=\"line.curve\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"stone\">\n<mechanical geometry=\"cube\" root=\"line\"><rigid_body/></mechanical>" BALL
+           "</body></bodies>\n"),
+     {"fault 6:1: root=\"line\" is the root of a mesentery, and rigid_body has none"}},
     {"region-of-unknown-density",
      SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
            "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
