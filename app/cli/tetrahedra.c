@@ -113,7 +113,7 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
 
 /* Meshes the labels chosen of a map; its file states the unit and the axes. */
 static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
-                           const GArray *labels, GHashTable *names, const char *output) {
+                           const GArray *labels, const SporeLabelSurvey *survey, const char *output) {
   SporeTetrahedraFields fields;
   spore_parameters_set_initial(&options->table, &fields);
   spore_cli_options_fill(options, &fields);
@@ -122,14 +122,14 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   SporeLabelTetrahedraReport figures = {0};
   gboolean done = spore_cli_label_tetrahedra(cli, file, content, labels, &fields, &mesh, &figures, &error);
   gsize size = 0;
-  if (done) spore_cli_report_labels(cli, &mesh, &figures, names);
+  if (done) spore_cli_report_labels(cli, &mesh, &figures, survey);
   if (done && output && spore_cli_is_scene(output)) {
     const SporeLabelBodies organs = {.file = file,
                                      .content = g_bytes_get_size(content) <= SPORE_LABEL_MAP_KEPT ? content : NULL,
                                      .fields = &fields,
                                      .mesh = &mesh,
                                      .use = SPORE_LABELS_LINKED};
-    done = spore_cli_save_labels(cli, output, &organs, &figures, names, &error);
+    done = spore_cli_save_labels(cli, output, &organs, &figures, survey, &error);
   } else if (done && output) {
     g_autofree char *text = formatter_of(output)(&mesh, &size);
     done = spore_write_file(output, text, size, &error);
@@ -152,8 +152,7 @@ static int use_labels(SporeCli *cli, const char *file, GBytes *content, const Sp
   g_autoptr(GArray) chosen =
       labels ? spore_label_survey_choose(survey, labels, &error) : g_array_new(FALSE, FALSE, sizeof(guint16));
   if (!chosen) return spore_cli_fail(error);
-  g_autoptr(GHashTable) names = spore_label_survey_names(survey);
-  return generate_labels(cli, file, content, options, chosen, names, output);
+  return generate_labels(cli, file, content, options, chosen, survey, output);
 }
 
 /* Meshes a surface or a label map, whichever the file holds. */
@@ -224,7 +223,7 @@ static const SporeReportMember members[] = {
     {"shared_faces", N_("of a label map: between two organs")},
     {"labels",
      N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
-        "min_dihedral_deg; with --list: label, name, named (by the file or a sidecar), voxels, volume_m3, size_m "
+        "min_dihedral_deg; with --list: label, name, named (file, sidecar, guessed), voxels, volume_m3, size_m "
         "(along the map's axes), cut (sides of the volume that it reaches: i- i+ j- j+ k- k+)")},
     {"seams", N_("of a label map, with -o F.spore: between bodies that share faces")},
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
@@ -260,7 +259,9 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
        N_("Labels wanted of a label map, by number or name (default: all above 0)"), "1,liver,5"},
       {"list", 0, 0, G_OPTION_ARG_NONE, &list,
        N_("List the labels of a label map, and mesh nothing: name (in the file's own table, or in a file of its name "
-          "beside it: .json, .txt, .ctbl, .label), volume, size, and whether the edge of the volume may cut it"),
+          "beside it: .json, .txt, .ctbl, .label; else guessed by its number), volume, size, and whether the edge of "
+          "the "
+          "volume may cut it"),
        NULL},
       SPORE_SCENE_BODY_ENTRY(&body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,

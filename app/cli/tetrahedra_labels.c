@@ -35,25 +35,31 @@ static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *
 }
 
 gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs,
-                               const SporeLabelTetrahedraReport *report, GHashTable *names, GError **error) {
-  g_autoptr(GPtrArray) called = g_ptr_array_new_with_free_func(g_free);
-  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32));
+                               const SporeLabelTetrahedraReport *report, const SporeLabelSurvey *survey,
+                               GError **error) {
+  g_autoptr(GPtrArray) called = g_ptr_array_new();
+  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32)),
+                    guessed = g_array_new(FALSE, FALSE, sizeof(gboolean));
   for (guint i = 0; i < report->labels->len; i++) {
     const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
-    guint32 label = figures->label;
+    const SporeLabelEntry *entry = spore_label_survey_entry(survey, figures->label);
+    const guint32 label = figures->label;
+    const gboolean guess = entry->naming == SPORE_LABEL_GUESSED;
     if (!figures->cells) continue; /* finer than the cells */
-    g_ptr_array_add(called, spore_label_map_name(names, figures->label));
+    g_ptr_array_add(called, entry->name);
     g_array_append_val(labels, label);
+    g_array_append_val(guessed, guess);
   }
   SporeLabelBodies bodies = *organs;
   bodies.labels = (const guint32 *)(const void *)labels->data;
   bodies.names = (char *const *)called->pdata;
+  bodies.guessed = (const gboolean *)(const void *)guessed->data;
   bodies.count = labels->len;
   return save(cli, output, &bodies, error);
 }
 
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
-                             GHashTable *names) {
+                             const SporeLabelSurvey *survey) {
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
   spore_cli_count(cli, "tetrahedra", (gint64)mesh->tetrahedron_count);
   spore_cli_number(cli, "min_dihedral_deg", report->quality.min_dihedral_deg);
@@ -72,7 +78,7 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
     double change = figures->volume / figures->voxel_volume - 1;
     spore_cli_open(cli, NULL);
-    g_autofree char *name = spore_label_map_name(names, figures->label);
+    const char *name = spore_label_survey_entry(survey, figures->label)->name;
     spore_cli_count(cli, "label", figures->label);
     spore_cli_text(cli, "name", name);
     spore_cli_count(cli, "cells", (gint64)figures->cells);

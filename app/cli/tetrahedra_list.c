@@ -36,6 +36,7 @@ static void say_entry(const SporeCli *cli, const SporeLabelEntry *entry) {
                                           100 * entry->size[2]),
                   *reached = sides_of(entry);
   spore_cli_say(cli, "%5u  %-28s %10.4g  %-20s", entry->label, entry->name, 1e6 * entry->volume, size);
+  if (entry->naming == SPORE_LABEL_GUESSED) spore_cli_say(cli, _("  guessed"));
   if (*reached) spore_cli_say(cli, _("  reaches the edge of the volume, which may cut it (%s)"), reached);
   spore_cli_say(cli, "\n");
 }
@@ -45,11 +46,16 @@ void spore_cli_report_list(SporeCli *cli, const SporeLabelSurvey *survey) {
                 survey->size[1], survey->size[2], 1000 * survey->spacing[0], 1000 * survey->spacing[1],
                 1000 * survey->spacing[2], survey->entries->len);
   spore_cli_say(cli, "%5s  %-28s %10s  %s\n", _("label"), _("name"), _("volume cm3"), _("size cm"));
+  gboolean guessed = FALSE;
   spore_cli_open_array(cli, "labels");
   for (guint i = 0; i < survey->entries->len; i++) {
     const SporeLabelEntry *entry = &g_array_index(survey->entries, SporeLabelEntry, i);
     report_entry(cli, entry);
     say_entry(cli, entry);
+    guessed = guessed || entry->naming == SPORE_LABEL_GUESSED;
   }
   spore_cli_close_array(cli);
+  if (guessed)
+    spore_cli_say(cli, _("guessed: by the label's number in a common set; a table beside the file (NAME.json: "
+                         "{\"1\": \"spleen\"}) settles the names\n"));
 }

@@ -59,6 +59,7 @@ typedef struct SporeLabelBodies {
   char *const *names;    /* count */
   gsize count;
   SporeLabelUse use;
+  const gboolean *guessed; /* count: whether the name is a guess; NULL: none is */
 } SporeLabelBodies;
 /* Makes new assets, and bodies with their usual model that show the tetrahedra's own surface. Where the scene has the
  * same label map already, new tetrahedra replace earlier ones of the same name from that map, and their bodies stay. */

@@ -64,12 +64,11 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
   return spore_label_tetrahedra(work->source, map, &options, &work->tetrahedra, &work->label_report, progress, error);
 }
 
-/* The name of a label in the list of those of the report. */
-static char *name_of(const SporeGenerateWork *work, guint16 label) {
-  for (gsize i = 0; i < spore_label_source_count(work->options.labels); i++)
-    if (spore_label_source_label(work->options.labels, i) == label)
-      return spore_label_source_name(work->options.labels, i);
-  return g_strdup("");
+/* The place of a label of the report in the source. */
+static gsize place_of(const SporeGenerateWork *work, guint16 label) {
+  gsize i = 0;
+  while (spore_label_source_label(work->options.labels, i) != label) i++;
+  return i;
 }
 
 static const SporeLabelFigures *figures_of(const SporeGenerateWork *work, guint i) {
@@ -78,13 +77,17 @@ static const SporeLabelFigures *figures_of(const SporeGenerateWork *work, guint 
 
 static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
   g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
-  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32));
+  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32)),
+                    guessed = g_array_new(FALSE, FALSE, sizeof(gboolean));
   for (guint i = 0; i < work->label_report.labels->len; i++) {
     const SporeLabelFigures *figures = figures_of(work, i);
     guint32 label = figures->label;
     if (!figures->cells) continue; /* the label is finer than the cells: no cell has it */
-    g_ptr_array_add(names, name_of(work, figures->label));
+    const gsize place = place_of(work, figures->label);
+    const gboolean guess = spore_label_source_is_guessed(work->options.labels, place);
+    g_ptr_array_add(names, spore_label_source_name(work->options.labels, place));
     g_array_append_val(labels, label);
+    g_array_append_val(guessed, guess);
   }
   const SporeLabelBodies bodies = {.file = work->source,
                                    .content = spore_label_source_content(work->options.labels),
@@ -92,6 +95,7 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
                                    .mesh = &work->tetrahedra,
                                    .labels = (const guint32 *)(const void *)labels->data,
                                    .names = (char *const *)names->pdata,
+                                   .guessed = (const gboolean *)(const void *)guessed->data,
                                    .count = labels->len,
                                    .use = (SporeLabelUse)work->options.purpose};
   return spore_edit_use_labels(document, &bodies, error);
@@ -107,7 +111,7 @@ static char *facts(const SporeGenerateWork *work) {
     g_string_append(text, _("\nToo large a file for the scene to keep: it will not tell when the file changes"));
   for (guint i = 0; i < report->labels->len; i++) {
     const SporeLabelFigures *figures = figures_of(work, i);
-    g_autofree char *name = name_of(work, figures->label);
+    g_autofree char *name = spore_label_source_name(work->options.labels, place_of(work, figures->label));
     if (figures->cells)
       g_string_append_printf(text, _("\n%s: %zu cells, %.4g ml (%+.2f %%)"), name, figures->cells,
                              1e6 * figures->volume, 100 * (figures->volume / figures->voxel_volume - 1));

@@ -101,7 +101,11 @@ static gboolean add_organ(SporeDocument *document, const SporeLabelBodies *organ
                           const SporeGeneratedFrom *from, SporeObject **made, GError **error) {
   g_autofree char *name = spore_organ_name(organs->names[i]);
   SporeTetrahedralMesh part = extract(organs->mesh, organs->labels[i]);
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  const guint before = spore_object_child_count(bodies);
   gboolean done = add(document, name, &part, from, TRUE, made, error);
+  if (done && organs->guessed && organs->guessed[i] && spore_object_child_count(bodies) > before)
+    done = spore_document_set_text(document, *made, "name_guessed", "true", error);
   g_free(part.vertices);
   g_free(part.tetrahedra);
   return done;

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/organ_import.h"
+#include "core/io/label_survey.h"
 
 struct SporeLabelSource {
   char *file;
@@ -12,6 +13,7 @@ struct SporeLabelSource {
   SporeLabelMap map;
   GArray *labels, *voxels; /* NULL: not read yet */
   GHashTable *names;       /* of label -> char * */
+  gboolean guessed;        /* the names are guesses */
 };
 
 SporeLabelSource *spore_label_source_new(const char *file) {
@@ -46,6 +48,19 @@ void spore_label_source_unref(SporeLabelSource *source) { g_atomic_rc_box_releas
 
 const char *spore_label_source_file(const SporeLabelSource *source) { return source->file; }
 
+/* Guesses the names where the file has none. */
+static void guess(SporeLabelSource *source) {
+  g_autoptr(GArray) sizes = g_array_new(FALSE, FALSE, sizeof(SporeLabelSize));
+  for (gsize i = 0; i < source->labels->len; i++) {
+    const SporeLabelSize size = {spore_label_source_label(source, i), spore_label_source_volume(source, i)};
+    g_array_append_val(sizes, size);
+  }
+  source->guessed = g_hash_table_size(source->names) == 0;
+  if (!source->guessed) return;
+  g_hash_table_unref(source->names);
+  source->names = spore_label_guess((const SporeLabelSize *)(gconstpointer)sizes->data, sizes->len);
+}
+
 static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
   g_autoptr(GBytes) given =
       source->content ? g_bytes_ref(source->content) : spore_import_read_content(source->file, error);
@@ -69,6 +84,7 @@ static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, 
   source->names = spore_label_map_names(bytes, size);
   source->voxels = g_steal_pointer(&voxels);
   source->labels = g_steal_pointer(&labels);
+  guess(source);
   return TRUE;
 }
 
@@ -87,6 +103,11 @@ guint16 spore_label_source_label(const SporeLabelSource *source, gsize i) {
 
 double spore_label_source_volume(const SporeLabelSource *source, gsize i) {
   return (double)g_array_index(source->voxels, guint64, i) * spore_label_map_voxel_volume(&source->map);
+}
+
+gboolean spore_label_source_is_guessed(const SporeLabelSource *source, gsize i) {
+  return source->guessed &&
+         g_hash_table_contains(source->names, GUINT_TO_POINTER((guint)spore_label_source_label(source, i)));
 }
 
 char *spore_label_source_name(const SporeLabelSource *source, gsize i) {

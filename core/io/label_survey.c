@@ -12,7 +12,7 @@
 
 #define MOST_SIDECAR ((gsize)1 << 20)
 
-const char *const spore_label_namings[] = {NULL, "file", "sidecar"};
+const char *const spore_label_namings[] = {NULL, "file", "sidecar", "guessed"};
 
 void spore_label_survey_free(SporeLabelSurvey *survey) {
   g_array_unref(survey->entries);
@@ -102,6 +102,26 @@ static gboolean read_answer(const char *file, GBytes *content, GBytes *answer, S
   return sane;
 }
 
+/* Guesses the names where neither the file nor a sidecar has one. */
+static void guess(SporeLabelSurvey *survey) {
+  g_autoptr(GArray) sizes = g_array_new(FALSE, FALSE, sizeof(SporeLabelSize));
+  for (guint i = 0; i < survey->entries->len; i++) {
+    const SporeLabelEntry *entry = &g_array_index(survey->entries, SporeLabelEntry, i);
+    const SporeLabelSize size = {entry->label, entry->volume};
+    if (entry->naming != SPORE_LABEL_UNNAMED) return;
+    g_array_append_val(sizes, size);
+  }
+  g_autoptr(GHashTable) names = spore_label_guess((const SporeLabelSize *)(gconstpointer)sizes->data, sizes->len);
+  for (guint i = 0; i < survey->entries->len; i++) {
+    SporeLabelEntry *entry = &g_array_index(survey->entries, SporeLabelEntry, i);
+    const char *name = g_hash_table_lookup(names, GUINT_TO_POINTER((guint)entry->label));
+    if (!name) continue;
+    g_free(entry->name);
+    entry->name = g_strdup(name);
+    entry->naming = SPORE_LABEL_GUESSED;
+  }
+}
+
 SporeLabelSurvey *spore_label_survey(const char *file, GBytes *content, const SporeProgress *progress, GError **error) {
   if (!spore_label_map_readable(file, error)) return NULL;
   g_autoptr(GBytes) answer =
@@ -110,20 +130,21 @@ SporeLabelSurvey *spore_label_survey(const char *file, GBytes *content, const Sp
   g_autoptr(SporeLabelSurvey) survey = g_new0(SporeLabelSurvey, 1);
   survey->entries = g_array_new(FALSE, FALSE, sizeof(SporeLabelEntry));
   g_array_set_clear_func(survey->entries, clear_entry);
-  if (read_answer(file, content, answer, survey)) return g_steal_pointer(&survey);
+  if (read_answer(file, content, answer, survey)) {
+    guess(survey);
+    return g_steal_pointer(&survey);
+  }
   spore_error_raise(error, SPORE_ERROR_INTERNAL, file,
                     _("the volume helper gave a wrong answer; expected labels; report this"));
   return NULL;
 }
 
-GHashTable *spore_label_survey_names(const SporeLabelSurvey *survey) {
-  GHashTable *names = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+const SporeLabelEntry *spore_label_survey_entry(const SporeLabelSurvey *survey, guint16 label) {
   for (guint i = 0; i < survey->entries->len; i++) {
     const SporeLabelEntry *entry = &g_array_index(survey->entries, SporeLabelEntry, i);
-    if (entry->naming != SPORE_LABEL_UNNAMED)
-      g_hash_table_insert(names, GUINT_TO_POINTER((guint)entry->label), g_strdup(entry->name));
+    if (entry->label == label) return entry;
   }
-  return names;
+  return NULL;
 }
 
 /* The label that a word names, by number or by name in either case of letters; 0: none. */

@@ -77,6 +77,10 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   if (role == SPORE_ACTIVE && !is_moved(check, body))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);
+  if (spore_object_number(body, "name_guessed") != 0)
+    spore_check_say(check, SPORE_NOTE, body,
+                    _("see whether it is that; rename it if not; then set name_guessed to false"),
+                    _("the name \"%s\" is a guess: it stands at its label's number in a common set"), name);
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
   if (fidelity && (int)spore_object_number(fidelity, "mode") == SPORE_FIDELITY_EFFECT)
     spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical until there is an effect for it"),

@@ -48,6 +48,13 @@ static const SporeParameter body_parameters[] = {
      FIELD(SporeBodyFields, spin),
      .change = SPORE_CHANGE_RESTART,
      .doc = N_("Angular velocity at the start, about the scene's axes.")},
+    {.name = "name_guessed",
+     .type = SPORE_BOOLEAN,
+     .unit = "",
+     ANY,
+     FIELD(SporeBodyFields, name_guessed),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Whether the name is a guess by the number of the label that the body was made of; false confirms it.")},
 };
 
 static const SporeParameter mechanical_parameters[] = {

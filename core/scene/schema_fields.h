@@ -34,6 +34,7 @@ typedef struct SporeBodyFields {
   const char *name;
   int role; /* SporeRole */
   double position[3], rotation[3], velocity[3], spin[3];
+  bool name_guessed;
 } SporeBodyFields;
 
 typedef struct SporeMechanicalFields {

@@ -499,6 +499,36 @@ def label_maps_are_listed_before_they_are_meshed():
 
 
 @check
+def names_of_labels_are_guessed_where_a_common_set_holds_them_all():
+    """Told as guesses in list and scene until confirmed; nothing is guessed of few labels, of others, or against a size."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without label maps")
+    size = (10, 12, 4)
+    def rows(numbers, spacing=1):
+        at = lambda i, j, k: numbers[j - 1] if 1 <= j <= len(numbers) and 1 <= i < 9 and 1 <= k < 3 else 0
+        file("numbers.nii", shapes.nifti(size, shapes.labels(size, at), spacing=(spacing, spacing, spacing)))
+        return {r["label"]: (r["name"], r["named"]) for r in report("tetrahedra", "numbers.nii", "--list")["labels"]}
+    known = rows([1, 2, 3, 4, 5, 6, 7, 8, 9, 110])
+    assert known[5] == ("liver", "guessed") and known[8] == ("adrenal_gland_right", "guessed") and known[110] == ("rib_right_7", "guessed"), known
+    shared = rows([1, 2, 3, 4, 5, 6, 7, 8, 9, 104])
+    assert shared[5] == ("liver", "guessed") and shared[7] == shared[104] == (None, None), shared
+    assert all(name == (None, None) for name in rows([1, 2, 3, 4, 5, 6, 7, 8, 110]).values())
+    assert all(name == (None, None) for name in rows([1, 2, 3, 4, 5, 6, 7, 8, 9, 118]).values())
+    assert all(name == (None, None) for name in rows([1, 2, 3, 4, 5, 6, 7, 8, 9, 110], 20).values())  # adrenal glands of 128 ml
+    known = rows([1, 2, 3, 4, 5, 6, 7, 8, 9, 110])
+    assert "  guessed" in spore("tetrahedra", "numbers.nii", "--list").stdout
+    report("tetrahedra", "numbers.nii", "--size", 0.001, "--labels", "liver,stomach", "-o", "guessed.spore")
+    guesses = lambda: spore("check", "guessed.spore").stdout.count("is a guess")
+    assert guesses() == 2
+    spore("edit", "guessed.spore", "--set", "bodies/liver/name_guessed=false")
+    assert guesses() == 1
+    file("numbers.json", '{"5": "liver"}')
+    named = {r["label"]: r["named"] for r in report("tetrahedra", "numbers.nii", "--list")["labels"]}
+    assert named[5] == "sidecar" and named[6] is None, named
+    (WORK / "numbers.json").unlink()
+
+
+@check
 def scene_of_a_label_map():
     """A label map becomes a scene: a soft body of each organ, named as the file names it, joined by a seam; it runs."""
     if "volumes" not in FEATURES:

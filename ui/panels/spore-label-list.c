@@ -28,7 +28,10 @@ static void build(SporeLabelList *self, SporeLabelSource *source) {
   self->source = spore_label_source_ref(source);
   for (gsize i = 0; i < spore_label_source_count(source); i++) {
     g_autofree char *name = spore_label_source_name(source, i);
-    g_autofree char *text = g_strdup_printf(_("%s, %.3g ml"), name, 1e6 * spore_label_source_volume(source, i));
+    const double millilitres = 1e6 * spore_label_source_volume(source, i);
+    g_autofree char *text = spore_label_source_is_guessed(source, i)
+                                ? g_strdup_printf(_("%s (guessed), %.3g ml"), name, millilitres)
+                                : g_strdup_printf(_("%s, %.3g ml"), name, millilitres);
     GtkWidget *check = gtk_check_button_new_with_label(text);
     gtk_widget_set_tooltip_text(check, _("Whether this organ is meshed; the rest counts as nothing"));
     g_signal_connect_swapped(check, "toggled", G_CALLBACK(toggled), self);
