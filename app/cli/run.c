@@ -204,6 +204,11 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"lines",
        N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "
           "start), points (at the end), peak (at most) and reserve (that there may be), inserted and removed")},
+      {"loops",
+       N_("where bodies along a line can touch something: each one's body, least (distance of two of its spheres that "
+          "are farther apart along it than the sum of their radii, of that sum, over all steps; 1: none touched), "
+          "time_s (when that was), through (steps that began with such spheres nearer than half of it: its loops go "
+          "through each other; where it collides with itself the exit status is 1)")},
       {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
                      "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
                      "deep_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "

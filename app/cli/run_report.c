@@ -4,6 +4,8 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "app/cli/run_loops.h"
+
 static void report_stages(SporeCli *cli, const SporePlan *plan) {
   double total_us = 0;
   for (gsize i = 0; i < plan->stage_count; i++)
@@ -343,7 +345,8 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_tools(cli, world);
   report_levels(cli, world);
   report_lines(cli, world);
-  gboolean held = report_monitor(cli, world);
+  gboolean held = spore_run_report_loops(cli, world, &result->loops);
+  held &= report_monitor(cli, world);
   held &= report_pace(cli, world, pace);
   json_builder_set_member_name(cli->report, "repeatable");
   json_builder_add_boolean_value(cli->report, spore_world_is_repeatable(world));

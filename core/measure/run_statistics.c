@@ -13,9 +13,13 @@ void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld
   double energy = total_energy(world);
   *statistics = (SporeRunStatistics){.energy_start = energy, .energy_end = energy};
   spore_local_error_init(&statistics->local_error, world, dt_s);
+  spore_loops_start(&statistics->loops, world);
 }
 
-void spore_run_statistics_clear(SporeRunStatistics *statistics) { spore_local_error_clear(&statistics->local_error); }
+void spore_run_statistics_clear(SporeRunStatistics *statistics) {
+  spore_local_error_clear(&statistics->local_error);
+  spore_loops_clear(&statistics->loops);
+}
 
 static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
 
@@ -32,6 +36,7 @@ void spore_run_statistics_step(SporeRunStatistics *statistics, const SporeWorld 
   statistics->force_max = fmax(statistics->force_max, counts.contact_force);
   statistics->residual_max = fmax(statistics->residual_max, counts.residual);
   spore_local_error_step(&statistics->local_error, world);
+  spore_loops_step(&statistics->loops, world);
   if (statistics->steps % SPORE_ENERGY_PERIOD == 0) spore_run_statistics_energy(statistics, world);
 }
 

@@ -1,9 +1,10 @@
-/* Statistics of a run: energy, contacts, the solver's work and the local error, collected after each step from outside
- * of the step. */
+/* Statistics of a run: energy, contacts, the solver's work, the local error and loops, collected after each step from
+ * outside of the step. */
 #ifndef SPORE_MEASURE_RUN_STATISTICS_H
 #define SPORE_MEASURE_RUN_STATISTICS_H
 
 #include "core/measure/local_error.h"
+#include "core/measure/loops.h"
 
 #define SPORE_ENERGY_PERIOD 64 /* steps from one look at the energy to the next; a look costs as much as the forces */
 
@@ -16,10 +17,11 @@ typedef struct SporeRunStatistics {
   double depth_max, force_max; /* of contacts, m and N: see SporeStepCounts */
   double residual_max;         /* relative, worst of all steps: see SporeStepCounts */
   SporeLocalError local_error;
+  SporeLoops loops;
 } SporeRunStatistics;
 
-/* Begins with a look at the energy. dt_s: the step. Without memory for them, local errors are not estimated. Clear by
- * spore_run_statistics_clear. */
+/* Begins with a look at the energy. dt_s: the step. Without memory for them, local errors are not estimated
+ * and loops not measured. Clear by spore_run_statistics_clear. */
 void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld *world, double dt_s);
 void spore_run_statistics_clear(SporeRunStatistics *statistics);
 /* Adds the counts of a step, and looks at energy and local error where it is time to; to be called after each step. */

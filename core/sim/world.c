@@ -172,6 +172,10 @@ size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
   return world->bodies[body].collision.spheres.point_count;
 }
+bool spore_world_body_meets_itself(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].collision.fields.self;
+}
 size_t spore_world_dof(const SporeWorld *world) { return world->state.dof; }
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);

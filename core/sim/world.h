@@ -166,6 +166,8 @@ const SporeSpheres *spore_world_spheres(const SporeWorld *world);
 bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride);
 /* Number of the body's collision spheres. */
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
+/* Whether spheres of the body collide with each other, as its contact law says now. */
+bool spore_world_body_meets_itself(const SporeWorld *world, uint32_t body);
 /* Number of velocity components that physics moves. */
 size_t spore_world_dof(const SporeWorld *world);
 /* Configuration of the body: q_count doubles of its model, see core/body/model.h. A body without a model has 7:

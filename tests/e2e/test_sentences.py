@@ -42,7 +42,8 @@ def sources():
              for path in sorted(ROOT.glob(pattern)) for text in strings(path)]
     found += [(path, text) for path in sorted(ROOT.glob("models/*/*.c")) for text in doubts(path)]
     # In the commands N_ marks help; what is printed is marked by _, but for the names of who chose a method.
-    return found + [(path, text) for path in sorted(ROOT.glob("app/cli/plan*.c")) for text in strings(path, "_")]
+    found += [(path, text) for path in sorted(ROOT.glob("app/cli/plan*.c")) for text in strings(path, "_")]
+    return found + [(path, text.rstrip("\n")) for path in [ROOT / "app/cli/run_loops.c"] for text in strings(path, "_")]
 
 
 def pattern(text):
@@ -130,7 +131,7 @@ def plan_says_what_is_true():
 
 @check
 def the_register_says_what_is_true():
-    """Each cause of an unsolved step."""
+    """Each cause of an unsolved step, and what a run says of loops."""
     wrong = wrong_rows("run", sentences.RUN)
     assert not wrong, "\n".join(wrong)
 
