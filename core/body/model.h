@@ -177,6 +177,9 @@ typedef struct SporeModelSweep {
   bool (*can)(const SporeModel *model);
   /* Puts the elements in order, when a body is to move so. False: no memory. */
   bool (*prepare)(SporeModel *model);
+  /* The least part of a step after which its elements can be met so that no step is too large: more where meeting one
+   * undoes more of what meeting others did. */
+  double (*part)(const SporeModel *model);
   /* Moves the nodes of `now`: one sweep over all elements, which takes the place of the slot force. As h goes to 0 the
    * two agree. Allocates nothing. */
   void (*sweep)(SporeModel *model, const SporeSweep *at);

@@ -51,10 +51,10 @@ typedef struct SporeDynamics {
   void (*term_force)(void *data, const double *q, const double *v, double *f);
   /* What the elements of bodies do that are met one after the other. loose_force: f = all other forces; NULL: there are
    * no such elements. sweep: from q0, v0 and the v1 that the other forces led to in h seconds to the q1 and v1 of all,
-   * as the elements move what has gone `part` of the step; rows: 4 block_count doubles of scratch. */
+   * as the elements move what has gone a part of the step (core/integrate/position_based.c), which they choose; rows: 4
+   * block_count doubles of scratch. */
   void (*loose_force)(void *data, const double *q, const double *v, double *f);
-  void (*sweep)(void *data, double part, double h, const double *q0, const double *v0, double *q1, double *v1,
-                double *rows);
+  void (*sweep)(void *data, double h, const double *q0, const double *v0, double *q1, double *v1, double *rows);
   /* What is prescribed (tools) is taken to be where it will be `elapsed_s` after the start of this step; when the step
    * begins that is its end. */
   void (*set_time)(void *data, double elapsed_s);

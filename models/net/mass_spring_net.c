@@ -250,6 +250,10 @@ static bool prepare_sweep(SporeModel *model) {
   return ordered;
 }
 
+static double sweep_part(const SporeModel *model) {
+  return spore_springs_sweep_part(((const Net *)model)->springs, KINDS);
+}
+
 static void sweep(SporeModel *model, const SporeSweep *at) {
   assert(model->type == &spore_mass_spring_net);
   spore_springs_sweep(((Net *)model)->springs, KINDS, at);
@@ -261,7 +265,7 @@ static void mend(SporeModel *model) {
 }
 
 static const SporeModelCut cutting = {.prepare = prepare_cut, .cut = cut, .tear = tear, .tie = tie};
-static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .sweep = sweep};
+static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .part = sweep_part, .sweep = sweep};
 static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
 
 const SporeModelType spore_mass_spring_net = {

@@ -27,7 +27,7 @@ void spore_springs_clear(SporeSprings *springs) {
   spore_free(springs->diagonal);
   spore_free(springs->share);
   spore_free(springs->dose);
-  spore_free(springs->sweep.batches);
+  spore_springs_sweep_clear(&springs->sweep);
   *springs = (SporeSprings){0};
 }
 

@@ -18,6 +18,8 @@
 
 #include "models/tetrahedra/tetrahedra.h"
 
+#define SPORE_TETRAHEDRA_SWEEP_PART 0.8 /* SporeModelSweep.part */
+
 typedef struct SporeTetrahedraSweep {
   size_t count;
   SporeTetrahedronBatch *batches; /* of one batch no two have a node in common; lanes without one repeat the first */

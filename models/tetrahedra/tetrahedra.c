@@ -340,7 +340,10 @@ static void sweep(SporeModel *model, const SporeSweep *at) {
   spore_tetrahedra_sweep(&body->sweep, &body->tetrahedra, body->elasticity, at);
 }
 
-static const SporeModelSweep sweeping = {.can = can_sweep, .prepare = prepare_sweep, .sweep = sweep};
+static double sweep_part(const SporeModel *model) { return SPORE_TETRAHEDRA_SWEEP_PART; }
+
+static const SporeModelSweep sweeping = {
+    .can = can_sweep, .prepare = prepare_sweep, .part = sweep_part, .sweep = sweep};
 static const SporeModelCut cutting = {.reserve = reserve, .cut = cut, .split = split, .corners = corners};
 static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
 

@@ -65,6 +65,11 @@ static bool prepare_sweep(SporeModel *model) {
   return ordered;
 }
 
+static double sweep_part(const SporeModel *model) {
+  const Chain *chain = (const Chain *)model;
+  return spore_springs_sweep_part(chain->springs, chain->count);
+}
+
 static void sweep(SporeModel *model, const SporeSweep *at) {
   const Chain *chain = (const Chain *)model;
   spore_springs_sweep(chain->springs, chain->count, at);
@@ -77,7 +82,7 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
   return spore_mapping_init_identity(mapping, count);
 }
 
-static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .sweep = sweep};
+static const SporeModelSweep sweeping = {.prepare = prepare_sweep, .part = sweep_part, .sweep = sweep};
 
 static const SporeModelType type = {.name = "chain",
                                     .label = "Chain",

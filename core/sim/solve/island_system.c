@@ -1,5 +1,6 @@
 /* Island system: forces of the models and of the terms of an island, and its motion, for the integrators. */
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/sim/solve/island_system.h"
@@ -63,9 +64,21 @@ static double *rows_of(const SporeIslandSystem *system, size_t b, SporeRowsStep 
   return rows + 4 * (site->v / 3);
 }
 
-static void sweep(void *data, double part, double h, const double *q0, const double *v0, double *q1, double *v1,
-                  double *rows) {
+#define CONTACT_PART 0.8 /* as SporeModelSweep.part, of contacts */
+
+static double part_of(const SporeIslandSystem *system) {
+  double part = system->meets ? CONTACT_PART : 0;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeModel *model = spore_island_system_body(system, b, &site)->model;
+    if (spore_model_sweeps(model)) part = fmax(part, model->type->sweep->part(model));
+  }
+  return part;
+}
+
+static void sweep(void *data, double h, const double *q0, const double *v0, double *q1, double *v1, double *rows) {
   SporeIslandSystem *system = data;
+  const double part = part_of(system);
   const SporeRowsStep whole = {part, h, q0, v0, q1, v1};
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
