@@ -147,7 +147,7 @@ SporeAccuracyScene spore_accuracy_source_scene(SporeAccuracySource *source) {
   return (SporeAccuracyScene){.data = source,
                               .make = make,
                               .drop = drop,
-                              .starts_late = spore_object_child_count(spore_document_section(document, "effects")) == 0,
+                              .starts_late = true,
                               .own = {own_integrator(source), -1, -1},
                               .dt_s = spore_object_number(spore_document_section(document, "solver"), "time_step")};
 }

@@ -56,7 +56,7 @@ typedef enum SporeStudyOutcome {
 SporeStudyOutcome spore_study_run(SporeStudy *study, const SporeAccuracyWorld *world, const SporeStudyRun *run,
                                   SporeTrial *trial, SporeError *why);
 
-/* accuracy_window.c: finds where input brings contacts, and the state there. False: study->error. */
+/* accuracy_window.c: finds where something happens in the input, and the state there. False: study->error. */
 bool spore_study_find_window(SporeStudy *study);
 void spore_study_forget_state(SporeStudy *study);
 /* Puts a world at the start of the stretch, which may be the state of another level: the first step changes it. */

@@ -1,5 +1,6 @@
-/* Finds the stretch of input that the accuracy study runs: the first one with contacts in it. Where it begins later
- * than at time 0, every run begins with the state that the scene has there by its own method. */
+/* Finds the stretch of input that the accuracy study runs: the first one in which something touches, an instrument acts
+ * or particles come. Where it begins later than at time 0, every run begins with the state that the scene has there by
+ * its own method. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 
 #define SEARCH_S 20.     /* simulated, at most */
 #define SEARCH_SHARE 0.1 /* of the time of the study */
-#define BEFORE_S 0.05    /* simulated, before the first contact */
+#define BEFORE_S 0.05    /* simulated, before something happens */
 #define CHECKED 8        /* samples of a run that goes on, and of one that begins there */
 #define CARRIED 1e-3     /* of a body's length: how far the two may be apart */
 
@@ -72,14 +73,35 @@ static bool keep_state(SporeStudy *study, const SporeWorld *world) {
   return spore_error_set(study->error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the state of a run"));
 }
 
-/* Steps until something touches. Infinite: nothing does in the time that there is. */
-static double first_contact(SporeStudy *study, SporeWorld *world) {
+/* Particles in the world, of all bodies. */
+static size_t count_particles(const SporeWorld *world) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < spore_world_body_count(world); i++) {
+    const SporeModel *model = spore_world_body_model(world, i);
+    if (model && model->type->particles) count += spore_world_particle_count(world, i);
+  }
+  return count;
+}
+
+/* Whether something touches or an instrument acts. */
+static bool something_happens(const SporeWorld *world) {
+  bool acts = spore_world_counts(world).contacts > 0;
+  for (size_t i = 0; i < spore_world_tool_count(world); i++) {
+    SporeToolState tool = spore_world_tool_state(world, i);
+    acts |= tool.held || tool.taken || tool.cut || tool.pierced || tool.coagulated;
+  }
+  return acts;
+}
+
+/* Steps until something happens: the time of that. Infinite: nothing does in the time that there is. */
+static double first_event(SporeStudy *study, SporeWorld *world) {
   double most_s = SEARCH_SHARE * study->most_s;
+  size_t particles = count_particles(world);
   while (spore_world_time_s(world) < SEARCH_S && spore_study_elapsed_s(study) < most_s) {
     spore_world_step(world);
     if (spore_world_cancelled(world)) break;
     spore_world_tidy(world);
-    if (spore_world_counts(world).contacts > 0) return spore_world_time_s(world);
+    if (something_happens(world) || count_particles(world) != particles) return spore_world_time_s(world);
   }
   return HUGE_VAL;
 }
@@ -105,9 +127,9 @@ static bool can_begin(SporeStudy *study, SporeWorld *world, double dt_s) {
   return good;
 }
 
-/* Begins the stretch shortly before a contact, if a run can begin there. */
-static bool begin_late(SporeStudy *study, SporeWorld *world, double contact_s, double dt_s) {
-  double steps = floor(fmax(contact_s - BEFORE_S, 0) / dt_s);
+/* Begins the stretch shortly before something happens, if a run can begin there. */
+static bool begin_late(SporeStudy *study, SporeWorld *world, double event_s, double dt_s) {
+  double steps = floor(fmax(event_s - BEFORE_S, 0) / dt_s);
   spore_world_reset(world);
   for (double i = 0; i < steps && !spore_world_cancelled(world); i++) {
     spore_world_step(world);
@@ -120,9 +142,9 @@ static bool begin_late(SporeStudy *study, SporeWorld *world, double contact_s, d
   spore_study_forget_state(study);
   spore_study_cut(
       study,
-      _("contacts come after %.3g s of the input; the stretch begins at 0 s all the same, since the scene's "
-        "state there cannot be taken over (--full with a longer --time takes them in)"),
-      contact_s);
+      _("nothing touches and no instrument acts in the first %.3g s of the input; the stretch begins at 0 s all the "
+        "same, since the scene's state there cannot be taken over (--full with a longer --time takes in what comes)"),
+      event_s);
   study->report->start_s = 0;
   return true;
 }
@@ -132,12 +154,13 @@ bool spore_study_find_window(SporeStudy *study) {
   SporeWorld *world = own_world(study, 0, dt_s);
   if (!world) return false;
   bool good = true;
-  double contact_s = first_contact(study, world);
+  double event_s = first_event(study, world);
   if (spore_world_cancelled(world)) good = spore_error_set(study->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-  else if (isinf(contact_s))
-    spore_study_cut(study, _("nothing touches in the first %.3g s of the input"), spore_world_time_s(world));
-  else if (contact_s > 0.5 * study->report->time_s && study->scene.starts_late)
-    good = begin_late(study, world, contact_s, dt_s);
+  else if (isinf(event_s))
+    spore_study_cut(study, _("nothing touches and no instrument acts in the first %.3g s of the input"),
+                    spore_world_time_s(world));
+  else if (event_s > 0.5 * study->report->time_s && study->scene.starts_late)
+    good = begin_late(study, world, event_s, dt_s);
   study->scene.drop(study->scene.data, world);
   return good;
 }

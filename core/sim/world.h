@@ -177,8 +177,9 @@ const double *spore_world_q(const SporeWorld *world, uint32_t body);
  * world axes. Valid until the next step. */
 const double *spore_world_v(const SporeWorld *world, uint32_t body);
 /* Overwrites the state of a body, with as many numbers as spore_world_q and spore_world_v give. Lets the body move
- * again if it was frozen, wakes all bodies, and drops the contacts and the friction of the state before. For carrying a
- * state over to another world, and for tests. */
+ * again if it was frozen, wakes all bodies, and drops the contacts and the friction of the state before. A device that
+ * moves the body is taken to stand there, so that its next input does not count as a jump, and jaws are as far open as
+ * their bodies are. For carrying a state over to another world, and for tests. */
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
 /* Puts a body at a level of detail that it has, with the level's state at time 0. The caller sets the state next. */
 void spore_world_set_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);

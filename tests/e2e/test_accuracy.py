@@ -164,6 +164,13 @@ def fewer_spheres_feel_otherwise():
 
 
 @check
+def the_stretch_begins_where_something_happens():
+    """Jaws come to a tube after 1.5 s, open, led by a device: their state there is taken over."""
+    report = json.loads(spore(SCENES / "plate8-clamp.spore", "--methods", "implicit_euler,bdf2", "--seconds", 20 if is_sanitized(SPORE) else 4, "--json").stdout)
+    assert 1.4 < report["stretch"]["start_s"] < 1.52 and report["stretch"]["contacts"] > 1, (report["stretch"], report["cut"])
+
+
+@check
 def less_time_cuts_more():
     """What cannot be had in a few seconds is cut, and said: it would take minutes. A full study cuts nothing."""
     seconds = 20 if is_sanitized(SPORE) else 2

@@ -14,11 +14,13 @@ typedef struct Hand {
   SporeDevice base;
   double open_s;
   uint32_t buttons; /* after 2.5 s */
+  double ahead_s;   /* of the world's time */
 } Hand;
 
 static bool hand_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
                           SporeDeviceState *state) {
   const Hand *hand = (const Hand *)device;
+  time_s += hand->ahead_s;
   double down = fmin(fmax((time_s - 0.25) / 0.3, 0), 1), up = fmin(fmax((time_s - 1) / 0.5, 0), 1);
   *state = (SporeDeviceState){.position = {0, 0.06 + 0.03 * (up - down), 0}, .orientation = {1, 0, 0, 0}};
   state->grip_rad = time_s < 0.6 || time_s > hand->open_s ? 1 : 0;
@@ -104,6 +106,43 @@ static void test_grasper(void) {
   spore_world_reset(world);
   g_assert_cmpfloat(spore_world_tool_state(world, 0).opening, ==, 0);
   rig_free(rig);
+}
+
+#define TAKEN_S 0.4 /* the jaws are open, on their way down, and touch nothing */
+
+/* A world of the scene whose hand is ahead by TAKEN_S. */
+static Rig *build_ahead(Hand *hand) {
+  *hand = (Hand){.base = {&hand_type}, .open_s = 1.8, .ahead_s = TAKEN_S};
+  Rig *rig = scene(&spore_grasper, 2, NULL);
+  spore_world_set_device(rig_build(rig), SHAFT, &hand->base);
+  return rig;
+}
+
+/* A state that is taken over to another world goes on there: the tool is where it was, as far open as it was, and its
+ * device did not jump. The device of a world that was given no state does. */
+static void test_taken_over(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 1.8}, ahead, jumping;
+  Rig *rig = scene(&spore_grasper, 2, NULL), *other = build_ahead(&ahead), *bare = build_ahead(&jumping);
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, SHAFT, &hand.base);
+  run_to(world, TAKEN_S);
+  for (uint32_t body = 0; body <= FLOOR; body++)
+    spore_world_set_state(other->world, body, spore_world_q(world, body), spore_world_v(world, body));
+  g_assert_cmpfloat_with_epsilon(spore_world_tool_state(other->world, 0).opening, 1, 1e-9);
+  for (int i = 0; i < 20; i++) {
+    spore_world_step(world);
+    spore_world_step(other->world);
+    spore_world_step(bare->world);
+    for (uint32_t body = SHAFT; body <= JAW_B; body++)
+      for (int k = 0; k < 7; k++)
+        g_assert_cmpfloat_with_epsilon(spore_world_q(other->world, body)[k], spore_world_q(world, body)[k], 1e-12);
+  }
+  g_assert_cmpfloat_with_epsilon(height(other->world), height(world), 1e-5); /* friction on the floor begins anew */
+  g_assert_cmpuint(spore_world_monitor(other->world)->held_inputs, ==, 0);
+  g_assert_cmpfloat(spore_world_tool_state(bare->world, 0).opening, <, 0.9);
+  rig_free(rig);
+  rig_free(other);
+  rig_free(bare);
 }
 
 /* What can hold next to nothing loses it when it lifts. */
@@ -300,6 +339,7 @@ static void test_bipolar(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tools/grasper", test_grasper);
+  g_test_add_func("/tools/taken_over", test_taken_over);
   g_test_add_func("/tools/loses", test_loses);
   g_test_add_func("/tools/clamp", test_clamp);
   g_test_add_func("/tools/repeats", test_repeats);

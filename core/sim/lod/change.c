@@ -212,5 +212,6 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_body_thaw(body);
   spore_contacts_forget(world);
   spore_world_lose_lines(world);
+  if (body->role == SPORE_ACTIVE) spore_world_follow_tools(world, index);
   show_state(world);
 }

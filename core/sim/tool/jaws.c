@@ -201,6 +201,23 @@ static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *
   spore_active_set_velocity(world, jaw->body);
 }
 
+/* The opening at which the jaw stands as it does. */
+static double opening_of(const SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
+  assert(jaw->body < world->body_count);
+  SporeQuat shaft = spore_quat_load(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset + 3);
+  SporeQuat stands = spore_quat_load(world->state.q + world->bodies[jaw->body].q_offset + 3);
+  SporeQuat own = spore_quat_multiply(spore_quat_conjugate(shaft), stands);
+  SporeVec3 turn =
+      spore_quat_to_rotation_vector(spore_quat_multiply(own, spore_quat_conjugate(jaw->closed.orientation)));
+  return fmin(fmax(2 * jaw->side * spore_vec3_dot(turn, jaws->axis), 0), jaws->fields.opening);
+}
+
+void spore_jaws_follow(SporeWorld *world, SporeTool *tool) {
+  SporeJaws *jaws = (SporeJaws *)tool;
+  for (int j = 0; j < 2; j++)
+    if (jaws->jaw[j].body != SPORE_NO_BODY) jaws->opening = jaws->stroke = opening_of(world, jaws, &jaws->jaw[j]);
+}
+
 void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
   assert(tool->bodies[0] < world->body_count);
   SporeJaws *jaws = (SporeJaws *)tool;
@@ -274,6 +291,7 @@ const SporeToolType spore_grasper = {.element = "grasper",
                                      .fault = spore_jaws_fault,
                                      .clear = spore_jaws_clear,
                                      .reset = spore_jaws_reset,
+                                     .follow = spore_jaws_follow,
                                      .use = spore_jaws_use,
                                      .tear = tear,
                                      .feed_back = spore_jaws_feed_back,
@@ -290,6 +308,7 @@ const SporeToolType spore_clamp = {
     .fault = spore_jaws_fault,
     .clear = spore_jaws_clear,
     .reset = spore_jaws_reset,
+    .follow = spore_jaws_follow,
     .use = spore_jaws_use,
     .tear = tear,
     .feed_back = spore_jaws_feed_back,

@@ -38,6 +38,7 @@ const char *spore_hinge_fault(const SporeJawFields *fields);
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
 void spore_jaws_clear(SporeTool *tool);
 void spore_jaws_reset(SporeWorld *world, SporeTool *tool);
+void spore_jaws_follow(SporeWorld *world, SporeTool *tool);
 void spore_jaws_use(SporeWorld *world, SporeTool *tool);
 void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
 void spore_jaws_state(const SporeTool *tool, SporeToolState *state);

@@ -120,6 +120,7 @@ const SporeToolType spore_scissors = {
     .fault = fault,
     .clear = spore_jaws_clear,
     .reset = reset,
+    .follow = spore_jaws_follow,
     .use = use,
     .feed_back = spore_jaws_feed_back,
     .state = state};

@@ -38,6 +38,8 @@ bool spore_world_create_tools(SporeWorld *world, const SporeWorldDescription *de
 size_t spore_tools_spring_count(const SporeWorldDescription *description);
 void spore_world_reset_tools(SporeWorld *world);
 void spore_world_clear_tools(SporeWorld *world);
+/* The state of an active body was set from outside: its device is taken to stand there, and its tools follow. */
+void spore_world_follow_tools(SporeWorld *world, uint32_t body);
 /* Stage: tools act on the last good state. */
 void spore_world_use_tools(SporeWorld *world);
 /* Stage: releases holds whose force exceeds their strength. */

@@ -65,6 +65,8 @@ struct SporeToolType {
   void (*clear)(struct SporeTool *tool);
   /* Back to time 0. */
   void (*reset)(struct SporeWorld *world, struct SporeTool *tool);
+  /* The state of one of the tool's bodies was set from outside: what the tool knows of their poses follows. */
+  void (*follow)(struct SporeWorld *world, struct SporeTool *tool);
   /* In the step, after devices were read and before spheres are mapped: the tool acts on the last good state. */
   void (*use)(struct SporeWorld *world, struct SporeTool *tool);
   /* In the step, after integration: takes particles out of the next state. */

@@ -98,6 +98,20 @@ void spore_world_reset_tools(SporeWorld *world) {
   count_tools(world);
 }
 
+void spore_world_follow_tools(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count && world->bodies[index].role == SPORE_ACTIVE);
+  SporeBody *body = &world->bodies[index];
+  const double *q = world->state.q + body->q_offset;
+  double time_s = (double)world->state.step * world->solver.time_step;
+  spore_guard_start(&body->device.guard, time_s, (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)});
+  for (size_t i = 0; i < world->tools.count; i++) {
+    SporeTool *tool = world->tools.all[i];
+    bool has = false;
+    for (int part = 0; part < SPORE_TOOL_BODIES; part++) has |= tool->bodies[part] == index;
+    if (has && tool->type->follow) tool->type->follow(world, tool);
+  }
+}
+
 void spore_world_clear_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) {
     SporeTool *tool = world->tools.all[i];
