@@ -7,7 +7,10 @@
 #include "app/cli/advise_budget.h"
 #include "app/cli/cli.h"
 #include "app/cli/scene.h"
+#include "core/io/scene_xml.h"
 #include "core/measure/influence.h"
+#include "core/scene/fidelity.h"
+#include "core/scene/schema_fields.h"
 #include "core/scene/variation.h"
 
 #define USUAL_TIME_S 1. /* where nothing is recorded */
@@ -28,7 +31,8 @@ typedef struct Advice {
   SporeCli *cli;
   SporeRun *run;
   double dt_s, interval_s;
-  guint done, count; /* replays */
+  guint done, count;  /* replays */
+  const char *output; /* scene to write; NULL: none */
 } Advice;
 
 static void clear_replay(Replay *replay) {
@@ -40,18 +44,21 @@ static gboolean cancelled(GError **error) {
   return spore_error_raise(error, SPORE_ERROR_CANCELLED, "", "%s", _("cancelled"));
 }
 
-/* Runs the scene varied. perturbation: 0, or by how much the start is off. */
-static gboolean replay(Advice *advice, const SporeVariation *variation, double perturbation, guint32 seed,
+/* Runs the scene varied; what is an effect there is physical in it. perturbation: 0, or by how much the start is off.
+ */
+static gboolean replay(Advice *advice, const SporeVariation *difference, double perturbation, guint32 seed,
                        Replay *replay, GError **error) {
+  SporeVariation variation = *difference;
   SporeError fault = SPORE_ERROR_INIT;
   const SporeTrack *input = advice->run->input.channel_count ? &advice->run->input : NULL;
+  variation.physical = TRUE;
   *replay = (Replay){0};
   g_autoptr(SporeSimulation) simulation =
-      spore_variation_make(advice->run->document, variation, advice->run->pool, input, spore_cli_cancel(), error);
+      spore_variation_make(advice->run->document, &variation, advice->run->pool, input, spore_cli_cancel(), error);
   if (!simulation) return FALSE;
   const SporeTrialSettings settings = {.interval_s = advice->interval_s,
                                        .samples = SAMPLES,
-                                       .dt_s = variation->dt_s > 0 ? variation->dt_s : advice->dt_s,
+                                       .dt_s = variation.dt_s > 0 ? variation.dt_s : advice->dt_s,
                                        .perturbation = perturbation,
                                        .seed = seed,
                                        .cancel = spore_cli_cancel()};
@@ -136,8 +143,10 @@ static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed
   evidence->held = holder_of(advice->run->document, object);
   evidence->alone = full->points.body_count == 1;
   if (evidence->held || evidence->alone) return TRUE;
-  const SporeVariation left_out = {.left_out = name}, still = {.still = name};
-  if (!try_form(advice, full, body, &left_out, SPORE_VERDICT_EFFECT, evidence, error)) return FALSE;
+  gboolean has_effect = spore_model_effect_form(spore_world_body_model(world, body)) != SPORE_EFFECT_NONE;
+  const SporeVariation still = {.still = name},
+                       effect = {.effect = has_effect ? name : NULL, .left_out = has_effect ? NULL : name};
+  if (!try_form(advice, full, body, &effect, SPORE_VERDICT_EFFECT, evidence, error)) return FALSE;
   gboolean particles = spore_world_body_model(world, body)->type->particles != NULL;
   if (!particles && evidence->own_motion <= SPORE_EVIDENCE_STILL &&
       !try_form(advice, full, body, &still, SPORE_VERDICT_STILL, evidence, error))
@@ -219,10 +228,10 @@ static SporeVerdict report_element(Advice *advice, const char *name, const Spore
 
 static void report_suggestions(Advice *advice, const SporeTrialPoints *points, const SporeVerdict *verdicts,
                                const SporeEvidence *evidence) {
-  static const char *const changes[SPORE_VERDICT_COUNT] = {[SPORE_VERDICT_STILL] = N_("make it unmovable"),
-                                                           [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
-                                                           [SPORE_VERDICT_EFFECT] =
-                                                               N_("draw it by a special effect, or leave it out")};
+  static const char *const changes[SPORE_VERDICT_COUNT] = {
+      [SPORE_VERDICT_STILL] = N_("make it unmovable"),
+      [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
+      [SPORE_VERDICT_EFFECT] = N_("let a special effect take its place, or leave it out")};
   SporeCli *cli = advice->cli;
   guint count = 0;
   spore_cli_open_array(cli, "suggestion");
@@ -242,6 +251,40 @@ static void report_suggestions(Advice *advice, const SporeTrialPoints *points, c
   spore_cli_close_array(cli);
   if (count == 0) spore_cli_say(cli, _("nothing to suggest: what is simulated is felt\n"));
   spore_cli_say(cli, _("this holds for this input, over %g s\n"), SAMPLES * advice->interval_s);
+}
+
+/* What is an effect now, or was advised on before, takes the verdict. *count: bodies that do. */
+static gboolean apply(Advice *advice, const SporeTrialPoints *points, const SporeVerdict *verdicts, guint *count,
+                      GError **error) {
+  SporeDocument *document = advice->run->document;
+  const SporeWorld *world = advice->run->simulation->world;
+  for (gsize k = 0; k < points->body_count; k++) {
+    guint32 index = points->bodies[k].body;
+    SporeObject *body = spore_document_find(document, "body", spore_world_body_name(world, index));
+    SporeObject *fidelity = spore_object_child_of(body, "fidelity");
+    gboolean effect = verdicts[k] == SPORE_VERDICT_EFFECT &&
+                      spore_model_effect_form(spore_world_body_model(world, index)) != SPORE_EFFECT_NONE;
+    if (!effect && !(fidelity && (int)spore_object_number(fidelity, "mode") != SPORE_FIDELITY_PHYSICAL)) continue;
+    if (!spore_fidelity_advise(document, body, effect, error)) return FALSE;
+    ++*count;
+  }
+  return TRUE;
+}
+
+/* Writes the scene with the verdicts, where that is asked for. */
+static gboolean write_scene(Advice *advice, const SporeTrialPoints *points, const SporeVerdict *verdicts,
+                            GError **error) {
+  guint count = 0;
+  if (!advice->output) return TRUE;
+  if (!apply(advice, points, verdicts, &count, error)) return FALSE;
+  if (count == 0) {
+    spore_cli_say(advice->cli, _("nothing was written: no body is to be an effect\n"));
+    return TRUE;
+  }
+  if (!spore_cli_save_scene(advice->run->document, advice->output, error)) return FALSE;
+  spore_cli_text(advice->cli, "scene", advice->output);
+  spore_cli_say(advice->cli, _("%s: written; bodies that take what was advised: %u\n"), advice->output, count);
+  return TRUE;
 }
 
 static gboolean advise(Advice *advice, GError **error) {
@@ -273,6 +316,7 @@ static gboolean advise(Advice *advice, GError **error) {
                          &evidence[k], width);
     spore_cli_close_array(cli);
     report_suggestions(advice, &full.points, verdicts, evidence);
+    good = write_scene(advice, &full.points, verdicts, error);
   }
   clear_replay(&full);
   return good;
@@ -287,13 +331,16 @@ static double usual_time(const SporeRun *run) {
   return end_s > 0 ? fmin(end_s, LONGEST_TIME_S) : USUAL_TIME_S;
 }
 
-static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions *options, const char *time) {
+static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions *options,
+                      const SporeBudgetRequest *request) {
   GError *error = NULL;
+  const char *time = request->time, *output = request->output ? request->output : request->apply ? scene : NULL;
   double time_s = 0;
+  if (output && !spore_file_may_be_written(output, TRUE, &error)) return spore_cli_fail(error);
   if (time && !spore_cli_seconds("--time", time, &time_s, &error)) return spore_cli_fail(error);
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, options, 1, &error);
   if (!run) return spore_cli_fail(error);
-  Advice advice = {.cli = cli, .run = run};
+  Advice advice = {.cli = cli, .run = run, .output = output};
   if (!time) time_s = usual_time(run);
   advice.dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   advice.interval_s = advice.dt_s * fmax(1, round(time_s / SAMPLES / advice.dt_s));
@@ -317,10 +364,9 @@ static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions 
 static int carry_out(SporeCli *cli, const char *scene, const SporeSceneOptions *options,
                      const SporeBudgetRequest *budget) {
   if (budget->budget) return spore_advise_budget(cli, scene, options, budget);
-  if (budget->keep || budget->seconds || budget->apply || budget->output)
-    return spore_cli_usage(_("--keep, --seconds, --apply, --output: they go with --budget-us; give a budget, or leave "
-                             "them out"));
-  return run_advice(cli, scene, options, budget->time);
+  if (budget->keep || budget->seconds)
+    return spore_cli_usage(_("--keep, --seconds: they go with --budget-us; give a budget, or leave them out"));
+  return run_advice(cli, scene, options, budget);
 }
 
 int spore_command_advise(SporeCli *cli, int argc, char **argv) {
@@ -346,9 +392,11 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {
       "advise",
       "SCENE",
-      N_("Replays the scene without each of its bodies, and says which of them nobody would miss: physical where "
+      N_("Replays the scene without the physics of each of its bodies, and says which of them nobody would miss: "
+         "physical where "
          "others "
-         "feel it, or an effect where what is seen of it is enough. The advice holds for the input that was replayed."),
+         "feel it, or an effect where what is seen of it is enough. What has an effect is replayed as one. The advice "
+         "holds for the input that was replayed."),
       1,
       1,
       members};
@@ -367,10 +415,9 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
        N_("With --budget-us: a body that keeps its level and integrator (may be repeated)"), "BODY"},
       {"seconds", 0, 0, G_OPTION_ARG_STRING, &budget.seconds,
        N_("With --budget-us: time on the processor that choosing may take (default 40)"), "S"},
-      {"apply", 0, 0, G_OPTION_ARG_NONE, &budget.apply, N_("With --budget-us: write what was chosen into the scene"),
-       NULL},
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &budget.output,
-       N_("With --budget-us: write the scene so chosen to this file"), "F.spore"},
+      {"apply", 0, 0, G_OPTION_ARG_NONE, &budget.apply,
+       N_("Write into the scene which bodies are effects, or what was chosen with --budget-us"), NULL},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &budget.output, N_("The same, to this file"), "F.spore"},
       SPORE_SCENE_OPTION_ENTRIES(options),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);

@@ -224,6 +224,9 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
        N_("with --realtime: factor (simulated by real time), deadline_misses (steps that ended late), worst_late_us, "
           "jitter_us of their beginnings (median, p99, max), given_up_s (time that was not caught up with)")},
       {"repeatable", N_("false where levels follow the clock, so that another run may end in another state")},
+      {"bodies",
+       N_("the state of each body at the end: name, hash (of its positions and velocities), moved_by (of a passive "
+          "one: physics or effect)")},
       {"state_hash",
        N_("of all positions and velocities: the same for the same scene and input, whatever the threads")},
       {NULL, NULL}};

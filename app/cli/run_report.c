@@ -301,6 +301,21 @@ static guint count_asleep(const SporeWorld *world) {
   return asleep;
 }
 
+/* The state of each body as a number, and what moves it. */
+static void report_states(SporeCli *cli, const SporeWorld *world) {
+  spore_cli_open_array(cli, "bodies");
+  for (guint32 body = 0; body < spore_world_body_count(world); body++) {
+    g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_body_hash(world, body));
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", spore_world_body_name(world, body));
+    spore_cli_text(cli, "hash", hash);
+    if (spore_world_body_role(world, body) == SPORE_PASSIVE)
+      spore_cli_text(cli, "moved_by", spore_world_body_is_effect(world, body) ? "effect" : "physics");
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
+}
+
 int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result,
                      const SporePace *pace) {
   SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
@@ -352,6 +367,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   json_builder_add_boolean_value(cli->report, spore_world_is_repeatable(world));
   if (!spore_world_is_repeatable(world))
     spore_cli_say(cli, _("levels followed the clock: another run of this scene may end in another state\n"));
+  report_states(cli, world);
   spore_cli_text(cli, "state_hash", hash);
   spore_cli_say(cli, _("state hash %s\n"), hash);
   return held ? SPORE_EXIT_DONE : SPORE_EXIT_NOT_HELD;

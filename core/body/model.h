@@ -190,6 +190,10 @@ typedef struct SporeModelSweep {
 typedef struct SporeModelParticles {
   /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. NULL: they are not. */
   void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
+  /* As a special effect, in place of forces: the state after h seconds, by a formula that is right for any h in air
+   * that is even there. gravity: less the buoyancy, m/s^2. NULL: the model has no such effect. */
+  void (*carry)(const SporeModel *model, SporeVec3 gravity, double h, const double *q, const double *v, double *q1,
+                double *v1);
 } SporeModelParticles;
 
 /* A model with a line that runs through the body, led by its first nodes (core/body/path.h). */

@@ -5,6 +5,7 @@
 #include "core/scene/check_private.h"
 #include "core/scene/compile.h"
 #include "core/scene/document_private.h"
+#include "core/scene/fidelity.h"
 #include "core/scene/schema_fields.h"
 
 /* Checks that a reference names something, and notes who refers to what. */
@@ -63,6 +64,49 @@ static gboolean is_used_untouched(const SporeCheck *check, const SporeObject *bo
   return FALSE;
 }
 
+/* A link or a tool that ties the body; the first of them. NULL: there is none. */
+static const SporeObject *holder_of(SporeCheck *check, const SporeObject *body) {
+  const GPtrArray *users = g_hash_table_lookup(check->users, body);
+  for (guint i = 0; users && i < users->len; i++) {
+    const SporeObject *section = spore_object_parent(users->pdata[i]);
+    gboolean pin = g_str_equal(spore_object_type(users->pdata[i])->element, "pin");
+    if (!pin && section && g_str_equal(spore_object_type(section)->element, "links")) return users->pdata[i];
+  }
+  return NULL;
+}
+
+/* Whether an effect can take the place of the body's model. */
+static gboolean has_effect(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  const SporeModelType *type = mechanical && spore_object_child_count(mechanical) > 0
+                                   ? spore_object_type(spore_object_child(mechanical, 0))->model
+                                   : NULL;
+  return !type || !type->particles || type->particles->carry;
+}
+
+static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role) {
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *holder = holder_of(check, body);
+  SporeFidelityState state = spore_fidelity_state(check->document, fidelity);
+  const char *name = spore_object_name(body);
+  if (state == SPORE_FIDELITY_NOT_ADVISED)
+    spore_check_say(check, SPORE_NOTE, fidelity, _("ask spore advise, with --apply"),
+                    _("\"%s\" is to be what was advised, and nothing was: it is physical"), name);
+  if (state == SPORE_FIDELITY_OUTDATED)
+    spore_check_say(check, SPORE_NOTE, fidelity, _("ask spore advise again, with --apply"),
+                    _("\"%s\" was advised on before the scene changed: it is physical"), name);
+  if (state != SPORE_FIDELITY_IS_EFFECT) return;
+  if (role != SPORE_PASSIVE)
+    spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, or the role passive"),
+                    _("\"%s\" is to be an effect, and physics does not move it anyway"), name);
+  else if (!has_effect(body))
+    spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical"),
+                    _("\"%s\" is to be an effect, and there is none for its model: it is simulated"), name);
+  else if (holder)
+    spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical, or take the link away"),
+                    _("\"%s\" is an effect, so that it does not give way to the link \"%s\""), name,
+                    spore_object_name(holder));
+}
+
 static void check_body(SporeCheck *check, SporeObject *body) {
   const char *name = spore_object_name(body);
   SporeRole role = (SporeRole)spore_object_number(body, "role");
@@ -81,10 +125,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
     spore_check_say(check, SPORE_NOTE, body,
                     _("see whether it is that; rename it if not; then set name_guessed to false"),
                     _("the name \"%s\" is a guess: it stands at its label's number in a common set"), name);
-  const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  if (fidelity && (int)spore_object_number(fidelity, "mode") == SPORE_FIDELITY_EFFECT)
-    spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical until there is an effect for it"),
-                    _("\"%s\" asks to be shown as an effect, and is simulated all the same"), name);
+  check_fidelity(check, body, role);
 }
 
 /* Tools. */

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/scene/fidelity.h"
 #include "core/scene/level_settings.h"
 
 static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
@@ -293,6 +294,8 @@ gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
       .spin = spore_vec3_load(fields.spin)};
   if (!add_collision(compiler, body, &description)) return FALSE;
   if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
+  description.effect =
+      spore_fidelity_state(compiler->document, spore_object_child_of(body, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
   gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description);
   g_ptr_array_add(compiler->objects, body);
   g_array_append_val(compiler->bodies, description);

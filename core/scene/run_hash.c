@@ -52,16 +52,28 @@ static gboolean is_shown_alone(const char *element) {
   return g_strv_contains(elements, element);
 }
 
-static guint64 hash_object(guint64 hash, SporeDocument *document, SporeObject *object) {
+/* Properties of a body's fidelity that advice is not about. */
+static gboolean is_advice(const SporeObjectType *type, const char *property) {
+  static const char *const properties[] = {"mode", "advice", "advice_hash", NULL};
+  return strcmp(type->element, "fidelity") == 0 && g_strv_contains(properties, property);
+}
+
+static guint64 hash_object(guint64 hash, SporeDocument *document, SporeObject *object, gboolean advised) {
   const SporeObjectType *type = spore_object_type(object);
   if (is_shown_alone(type->element)) return hash;
+  if (!advised && strcmp(type->element, "fidelity") == 0 && spore_object_child_count(object) == 0) return hash;
   hash = hash_text(hash, type->element);
-  for (guint i = 0; i < type->table->count; i++) hash = hash_property(hash, document, object, i);
+  for (guint i = 0; i < type->table->count; i++)
+    if (advised || !is_advice(type, type->table->parameters[i].name)) hash = hash_property(hash, document, object, i);
   for (guint i = 0; i < spore_object_child_count(object); i++)
-    hash = hash_object(hash, document, spore_object_child(object, i));
+    hash = hash_object(hash, document, spore_object_child(object, i), advised);
   return hash_text(hash, "/"); /* no element has that name: the object ends */
 }
 
 guint64 spore_document_run_hash(SporeDocument *document) {
-  return hash_object(SPORE_HASH_INIT, document, spore_document_root(document));
+  return hash_object(SPORE_HASH_INIT, document, spore_document_root(document), TRUE);
+}
+
+guint64 spore_document_advice_hash(SporeDocument *document) {
+  return hash_object(SPORE_HASH_INIT, document, spore_document_root(document), FALSE);
 }

@@ -11,5 +11,8 @@
  * comments, and how an asset was generated. An asset that cannot be read counts by its name. Reads the files that the
  * document has not decoded yet. */
 guint64 spore_document_run_hash(SporeDocument *document);
+/* The same without which bodies are physical and which are effects, and what was advised on that: what advice is found
+ * for. */
+guint64 spore_document_advice_hash(SporeDocument *document);
 
 #endif

@@ -5,7 +5,8 @@
 #include "core/scene/schema.h"
 #include "core/sim/world.h"
 
-typedef enum SporeFidelity { SPORE_FIDELITY_PHYSICAL, SPORE_FIDELITY_EFFECT } SporeFidelity;
+/* How a body is moved: by physics, by an effect in its place, or as it was advised to be. */
+typedef enum SporeFidelity { SPORE_FIDELITY_PHYSICAL, SPORE_FIDELITY_EFFECT, SPORE_FIDELITY_AUTO } SporeFidelity;
 
 typedef struct SporeRootFields {
   const char *version;
@@ -61,7 +62,8 @@ typedef struct SporeVisualFields {
 } SporeVisualFields;
 
 typedef struct SporeFidelityFields {
-  int mode;                            /* SporeFidelity */
+  int mode, advice;                    /* SporeFidelity; the advice is physical or effect */
+  const char *advice_hash;             /* of what was advised on; NULL: there is no advice */
   int level;                           /* SporeLodGrade */
   double level_tolerance;              /* m */
   int automatic;                       /* SporeLodCause */

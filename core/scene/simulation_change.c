@@ -3,6 +3,7 @@
 
 #include "core/base/memory.h"
 #include "core/scene/compile.h"
+#include "core/scene/fidelity.h"
 #include "core/scene/schema_fields.h"
 
 static gboolean same_state(const SporeModel *a, const SporeModel *b) {
@@ -90,6 +91,13 @@ static gboolean post_level(SporeSimulation *simulation, const SporeObject *fidel
   return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
 }
 
+static gboolean post_effect(SporeSimulation *simulation, SporeDocument *document, SporeObject *fidelity) {
+  SporeCommand command = {.kind = SPORE_COMMAND_EFFECT,
+                          .body = spore_simulation_body_of(simulation, fidelity),
+                          .effect = spore_fidelity_state(document, fidelity) == SPORE_FIDELITY_IS_EFFECT};
+  return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
+}
+
 gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *document, SporeObject *object,
                                 guint property) {
   const SporeObjectType *type = spore_object_type(object);
@@ -97,8 +105,9 @@ gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *docu
   if (strcmp(type->element, "environment") == 0) return post_gravity(simulation, object);
   if (strcmp(type->element, "contact") == 0) return post_contacts(simulation, document);
   if (strcmp(type->element, "solver") == 0) return FALSE;
-  if (strcmp(type->element, "fidelity") == 0 && strcmp(type->table->parameters[property].name, "level") == 0)
-    return post_level(simulation, object);
+  if (strcmp(type->element, "fidelity") == 0)
+    return strcmp(type->table->parameters[property].name, "level") == 0 ? post_level(simulation, object)
+                                                                        : post_effect(simulation, document, object);
   if (!type->model && strcmp(type->element, "collision") != 0)
     return TRUE; /* the property is only shown, or only used by a generator */
   guint32 body = spore_simulation_body_of(simulation, object);

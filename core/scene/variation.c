@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/integrate/integrator.h"
+#include "core/scene/fidelity.h"
 
 /* Sets one property of the copy, held within its range. */
 static gboolean set_number(SporeDocument *copy, SporeObject *object, const char *name, double number, GError **error) {
@@ -155,6 +156,13 @@ static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, G
          set_text(copy, body, "role", "unmovable", error);
 }
 
+/* Whether physics or an effect moves the body. */
+static gboolean vary_mode(SporeDocument *copy, SporeObject *body, const SporeVariation *variation, GError **error) {
+  gboolean effect = variation->effect && g_str_equal(variation->effect, spore_object_name(body));
+  if (!effect && !(variation->physical && spore_object_child_of(body, "fidelity"))) return TRUE;
+  return spore_fidelity_set_mode(copy, body, effect ? "effect" : "physical", error);
+}
+
 /* What the variation says of one body. */
 static SporeVariation of_body(const SporeVariation *variation, const char *body) {
   SporeVariation own = *variation;
@@ -173,6 +181,7 @@ gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variatio
     SporeObject *body = spore_object_child(bodies, i);
     if (!vary_contact(copy, body, variation->contact, error)) return FALSE;
     if ((int)spore_object_number(body, "role") != SPORE_PASSIVE) continue;
+    if (!vary_mode(copy, body, variation, error)) return FALSE;
     passive++;
     if (variation->body && strcmp(variation->body, spore_object_name(body)) != 0) continue;
     named++;
@@ -193,9 +202,10 @@ gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variatio
 SporeSimulation *spore_variation_make(SporeDocument *document, const SporeVariation *variation, SporePool *pool,
                                       const SporeTrack *input, const SporeCancel *cancel, GError **error) {
   SporeDocument *copy = spore_document_copy(document);
-  SporeSimulation *simulation = spore_variation_set(copy, variation, error) && stop_clocks(copy, error)
-                                    ? spore_simulation_new(copy, pool, input, cancel, error)
-                                    : NULL;
+  SporeSimulation *simulation =
+      spore_fidelity_resolve(copy, error) && spore_variation_set(copy, variation, error) && stop_clocks(copy, error)
+          ? spore_simulation_new(copy, pool, input, cancel, error)
+          : NULL;
   spore_document_free(copy);
   return simulation;
 }

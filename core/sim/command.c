@@ -77,7 +77,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   if (command->body >= world->body_count) return;
   SporeBody *body = &world->bodies[command->body];
   /* Sleeping bodies may lie on a body that physics does not move. */
-  if (body->role == SPORE_PASSIVE && !body->frozen) spore_world_wake(world, command->body);
+  if (spore_body_is_physical(body) && !body->frozen) spore_world_wake(world, command->body);
   else spore_world_wake_all(world);
   switch (command->kind) {
   case SPORE_COMMAND_PULL:
@@ -98,6 +98,9 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     break;
   case SPORE_COMMAND_LOD:
     spore_world_change_lod(world, command->body, command->level);
+    break;
+  case SPORE_COMMAND_EFFECT:
+    spore_world_set_effect(world, command->body, command->effect);
     break;
   case SPORE_COMMAND_GRAVITY:
     break;

@@ -105,6 +105,8 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->grade = SPORE_LOD_FINE;
   body->model = from->model;
   body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
+  body->effect.on = body->effect.at_start =
+      from->effect && from->model && spore_model_effect_form(from->model) != SPORE_EFFECT_NONE;
   body->collision.fields = from->contact;
   body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
   body->method.integrator = body->method.chosen =
@@ -247,6 +249,15 @@ static bool allocate_vectors(SporeWorld *world, SporeError *error) {
   return made || no_memory(error);
 }
 
+/* An effect has no limit on the step. Where physics has one, the body stays an effect. */
+static bool check_step(SporeWorld *world, uint32_t index, SporeError *error) {
+  SporeBodyEffect *effect = &world->bodies[index].effect;
+  SporeError ignored = SPORE_ERROR_INIT;
+  bool short_enough = spore_body_check_step(world, index, effect->on ? &ignored : error);
+  effect->too_long |= !short_enough;
+  return short_enough || effect->on;
+}
+
 /* Checks the time step for each body at each of its levels of detail. */
 static bool check_steps(SporeWorld *world, SporeError *error) {
   assert(world->state.rest_q && world->state.rest_v);
@@ -254,7 +265,7 @@ static bool check_steps(SporeWorld *world, SporeError *error) {
     for (int level = 0; level < SPORE_LOD_COUNT; level++) {
       if (!spore_world_lod_model(world, b, (SporeLodGrade)level)) continue;
       spore_world_select_lod(world, b, (SporeLodGrade)level);
-      if (!spore_body_check_step(world, b, error)) return false;
+      if (!check_step(world, b, error)) return false;
     }
   return true;
 }

@@ -16,8 +16,12 @@ static bool has_role(const SporeWorld *world, SporeRole role) {
 }
 
 static bool has_active(const SporeWorld *world) { return has_role(world, SPORE_ACTIVE); }
-static bool has_passive(const SporeWorld *world) { return has_role(world, SPORE_PASSIVE); }
-static bool has_moving(const SporeWorld *world) { return has_active(world) || has_passive(world); }
+static bool has_passive(const SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (spore_body_is_physical(&world->bodies[b])) return true;
+  return false;
+}
+static bool has_moving(const SporeWorld *world) { return has_active(world) || has_role(world, SPORE_PASSIVE); }
 static bool has_tools(const SporeWorld *world) { return world->tools.count > 0; }
 static bool may_tear(const SporeWorld *world) { return world->topology.tearing_count > 0; }
 static bool may_touch(const SporeWorld *world) { return world->contact.grid != NULL; }
@@ -46,7 +50,7 @@ static bool has_holds(const SporeWorld *world) {
 static bool may_solve(const SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->role != SPORE_PASSIVE) continue;
+    if (!spore_body_is_physical(body)) continue;
     if (spore_integrator(body->method.chosen)->implicit || !body->model->type->rates) return true;
   }
   return has_passive(world) && has_terms(world);
@@ -73,8 +77,13 @@ static size_t links(const SporeWorld *world) {
 static size_t tools(const SporeWorld *world) { return world->tools.count; }
 static size_t tetrahedra(const SporeWorld *world) { return world->topology.cuts.corner_count; }
 static size_t lines(const SporeWorld *world) { return world->topology.line_count; }
+static size_t effects(const SporeWorld *world) {
+  size_t count = 0;
+  for (size_t b = 0; b < world->body_count; b++) count += world->bodies[b].effect.on;
+  return count;
+}
 static size_t islands(const SporeWorld *world) { return world->solve.island_count; }
-static size_t degrees_of_freedom(const SporeWorld *world) { return world->state.dof; }
+static size_t degrees_of_freedom(const SporeWorld *world) { return spore_world_dof(world); }
 
 /* Estimates, us: of stages whose cost is not so much an item. Contacts are not known before they are there. */
 
@@ -88,7 +97,7 @@ static double integrate_work(const SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     SporeBodyWork work;
-    if (body->role != SPORE_PASSIVE) continue;
+    if (!spore_body_is_physical(body)) continue;
     if (spore_world_body_work(world, b, &work)) sum += ITERATIONS * 1e6 * work.step_s;
     else if (spore_integrator(body->method.integrator)->implicit) sum += FRAME_US;
     else sum += EXPLICIT_US * (double)(body->method.substeps * body->block_count);
@@ -96,7 +105,7 @@ static double integrate_work(const SporeWorld *world) {
   return sum;
 }
 
-static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)world->state.dof; }
+static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)spore_world_dof(world); }
 
 /* The stages of a step. Contacts and links are found from `detect` to `link` and do not change in the rest of the
  * step, so that forces are a pure function of q, v and t. From `accept` on the next state is written; from `advance` on
@@ -137,6 +146,8 @@ static const SporeStageType stages[] = {
      N_("devices feel what active bodies touch"), N_("no body is driven by a device or a track"), 0.1, 0.05},
     {"accept", has_moving, spore_world_accept, bodies, /**/
      N_("bodies that move have a next state"), N_("no body moves"), 0.05, 0.02},
+    {"effects", spore_world_has_effects, spore_world_move_effects, effects, /**/
+     N_("effects move bodies in place of physics"), N_("physics moves all bodies that no device moves"), 0.05, 5},
     {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
      N_("particles come and go: by suction, by emitters, or as they dissolve"),
      N_("nothing sucks particles away or lets them out"), 0.1, 0.02},
@@ -192,6 +203,7 @@ static const struct {
     {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start"),
      "map detect"},
     {N_("integration"), no_passive, N_("no body moves by physics"), "islands integrate report"},
+    {N_("physics of effects"), spore_world_has_effects, N_("an effect moves these bodies"), "islands integrate verify"},
     {N_("the nonlinear solver"), none_solves,
      N_("every body is integrated explicitly, and nothing touches or ties them"), "verify"},
     {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out"), "particles"},
@@ -299,7 +311,7 @@ static double widest_margin(const SporeWorld *world, uint32_t index) {
 
 bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMethod *method) {
   const SporeBody *body = &world->bodies[index];
-  if (body->role != SPORE_PASSIVE) return false;
+  if (!spore_body_is_physical(body)) return false;
   const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
   *method = (SporeMethod){.integrator = {integrator->name, body->method.integrator_source},
                           .substeps = body->method.substeps,

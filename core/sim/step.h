@@ -6,8 +6,8 @@
 
 #include "core/sim/world.h"
 
-#define SPORE_STAGE_COUNT 26
-#define SPORE_LEFT_OUT_MAXIMUM 9
+#define SPORE_STAGE_COUNT 27
+#define SPORE_LEFT_OUT_MAXIMUM 10
 #define SPORE_COMMAND_CAPACITY 1024
 
 /* A stage of the step. */

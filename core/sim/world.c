@@ -82,6 +82,7 @@ void spore_world_reset(SporeWorld *world) {
   world->schedule.step_us = 0;
   world->schedule.cancelled = false;
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
+  spore_world_reset_effects(world);
   spore_monitor_reset(&world->state.monitor);
   spore_world_reset_unsolved(world);
   spore_world_make_plan(world);
@@ -176,7 +177,6 @@ bool spore_world_body_meets_itself(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
   return world->bodies[body].collision.fields.self;
 }
-size_t spore_world_dof(const SporeWorld *world) { return world->state.dof; }
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
   return world->bodies[body].q_offset;

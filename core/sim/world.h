@@ -61,6 +61,7 @@ typedef struct SporeBodyDescription {
   size_t substeps;                /* of the integrator in a step; 0: as the world's solver says */
   SporePose pose;                 /* of the body's frame at time 0 */
   SporeVec3 velocity, spin;       /* at time 0, m/s and rad/s, world axes */
+  bool effect;                    /* of a passive body: at time 0 it is moved by an effect, see SporeEffectForm */
   const SporeSphereSet *spheres;  /* collision unit, body's frame at rest; borrowed; NULL: none */
   SporeContactFields contact;
 } SporeBodyDescription;
@@ -277,6 +278,8 @@ SporeEnergy spore_world_energy(const SporeWorld *world);
 
 /* Hash of the bits of q, v, step and time. */
 uint64_t spore_world_hash(const SporeWorld *world);
+/* The same of one body. */
+uint64_t spore_world_body_hash(const SporeWorld *world, uint32_t body);
 
 /* A stage of the step, in the world's plan. */
 typedef struct SporePlanStage {
@@ -438,6 +441,16 @@ bool spore_world_stopping_speed(const SporeWorld *world, uint32_t body, SporeSto
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 /* Whether the monitor froze the body: it stands still until SPORE_COMMAND_THAW or a reset. */
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
+/* What a body of a model does while a special effect takes the place of its physics. */
+typedef enum SporeEffectForm {
+  SPORE_EFFECT_NONE,    /* its model has no such effect */
+  SPORE_EFFECT_CARRIED, /* its particles go with the air, and dissolve */
+  SPORE_EFFECT_SHAPED,  /* it keeps the shape of time 0, and gives way to what devices move */
+  SPORE_EFFECT_STILL    /* it stands still */
+} SporeEffectForm;
+SporeEffectForm spore_model_effect_form(const SporeModel *model);
+/* Whether an effect moves the passive body now. */
+bool spore_world_body_is_effect(const SporeWorld *world, uint32_t body);
 /* Whether the body sleeps: it was at rest for long enough, and is not computed until something wakes it. */
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 
@@ -521,7 +534,9 @@ typedef enum SporeCommandKind {
                             spore_allocate, freed by the world */
   SPORE_COMMAND_CONTACT, /* sets the contact law of `body` to `contact` */
   SPORE_COMMAND_THAW,    /* lets a frozen body move again */
-  SPORE_COMMAND_LOD      /* changes `body` to `level`; where that is refused, the monitor says why */
+  SPORE_COMMAND_LOD,     /* changes `body` to `level`; where that is refused, the monitor says why */
+  SPORE_COMMAND_EFFECT /* moves `body` by an effect where `effect` is true, else by physics; where that is refused, the
+                          monitor says why */
 } SporeCommandKind;
 /* A change of a running world. */
 typedef struct SporeCommand {
@@ -532,6 +547,7 @@ typedef struct SporeCommand {
   void *fields;
   SporeContactFields contact;
   SporeLodGrade level;
+  bool effect;
 } SporeCommand;
 /* Queues a command; the next step applies it when it begins. For one writer, on any thread. False: the queue is full
  * (1024 commands); `fields` still belong to the caller then. */

@@ -5,6 +5,7 @@
 
 #include "core/haptic/guard.h"
 #include "core/sim/contact/contact.h"
+#include "core/sim/effect/effect.h"
 #include "core/sim/link/link.h"
 #include "core/sim/lod/lod.h"
 #include "core/sim/solve/solve.h"
@@ -38,6 +39,7 @@ struct SporeBody {
   uint64_t changed;          /* number of the newest state in which the body differs from the state before */
   bool altered;              /* cut, torn or coagulated since time 0: the body keeps its level */
   bool frozen;
+  SporeBodyEffect effect;
   double parking_gap; /* m, between particles out of the world; 0: no particle leaves */
   SporeBodyMethod method;
   SporeHeldBlocks held;
@@ -78,9 +80,13 @@ struct SporeWorld {
 static inline bool spore_body_is_passive(const SporeWorld *world, uint32_t body) {
   return body < world->body_count && world->bodies[body].role == SPORE_PASSIVE;
 }
+/* Whether the body is moved by physics, and not by an effect in its place. */
+static inline bool spore_body_is_physical(const SporeBody *body) {
+  return body->role == SPORE_PASSIVE && !body->effect.on;
+}
 /* Whether physics moves the body in this step. */
 static inline bool spore_body_moves(const SporeBody *body) {
-  return body->role == SPORE_PASSIVE && !body->frozen && !body->sleep.asleep;
+  return spore_body_is_physical(body) && !body->frozen && !body->sleep.asleep;
 }
 /* Whether the body's own forces are independent of its velocity. */
 static inline bool spore_body_is_static(const SporeBody *body) {

@@ -169,7 +169,34 @@ static void puff(const SporeModel *model, const double *q, size_t particle, doub
   *opacity = fields->opacity * sqrt(start / square) * fmax(1 - age / fields->life, 0);
 }
 
-static const SporeModelParticles particles = {.puff = puff};
+/* Speed that the air and the lift give a parcel at `place` in the end. */
+static SporeVec3 wind(const Smoke *smoke, SporeVec3 gravity, SporeVec3 place) {
+  double k = smoke->wave, s = smoke->now.swirl;
+  double sx = sin(k * place.x), sy = sin(k * place.y), sz = sin(k * place.z);
+  double cx = cos(k * place.x), cy = cos(k * place.y), cz = cos(k * place.z);
+  SporeVec3 swirl = {s * (cx * cy - sz * sx), s * (cy * cz - sx * sy), s * (cz * cx - sy * sz)};
+  return spore_vec3_add_scaled(swirl, 1 / smoke->now.drag, gravity);
+}
+
+/* v' = d (w - v) is solved exactly where the wind w does not change along the way; w is taken half-way, as the parcel
+ * goes now. */
+static void carry(const SporeModel *model, SporeVec3 gravity, double h, const double *q, const double *v, double *q1,
+                  double *v1) {
+  assert(model->type == &spore_smoke && h > 0);
+  const Smoke *smoke = (const Smoke *)model;
+  size_t n = model->node_count;
+  double drag = smoke->now.drag, kept = exp(-drag * h), whole = (1 - kept) / drag;
+  for (size_t i = 0; i < n; i++) {
+    SporeVec3 x = spore_vec3_load(q + 3 * i), speed = spore_vec3_load(v + 3 * i);
+    SporeVec3 air = wind(smoke, gravity, spore_vec3_add_scaled(x, 0.5 * h, speed));
+    SporeVec3 excess = spore_vec3_sub(speed, air), end = spore_vec3_add_scaled(x, h, air);
+    spore_vec3_store(q1 + 3 * i, spore_vec3_add_scaled(end, whole, excess));
+    spore_vec3_store(v1 + 3 * i, spore_vec3_add_scaled(air, kept, excess));
+  }
+  for (size_t i = 3 * n; i < 4 * n; i++) q1[i] = q[i] + h;
+}
+
+static const SporeModelParticles particles = {.puff = puff, .carry = carry};
 
 const SporeModelType spore_smoke = {
     .name = "smoke",

@@ -81,6 +81,8 @@ NET = '<mechanical geometry="sheet"><mass_spring_net/></mechanical>'
 SOFT = '<mechanical geometry="cells"><neo_hookean_tetrahedra/></mechanical>'
 FLUID = '<mechanical geometry="cube"><lennard_jones particles="60"/></mechanical>'
 SMOKE = '<mechanical geometry="cube"><smoke particles="20"/></mechanical>'
+EFFECT = '<fidelity mode="effect"/>'
+CORD = '<spring name="cord" body_a="stone" stiffness="100"/>'
 PROBE = '<probe name="t" body="tool" device="m"/>'
 MOUSE = '<mouse name="m"/>'
 
@@ -238,9 +240,16 @@ CHECK = [
     ("the name \"%s\" is a guess: it stands at its label's number in a common set",
      ["see whether it is that; rename it if not; then set name_guessed to false"],
      scene(floor(), stone(STONE, BALL, name_guessed="true")), scene(floor(), stone(STONE, BALL, name_guessed="false"))),
-    ("\"%s\" asks to be shown as an effect, and is simulated all the same", ["make the mode physical until there is an effect for it"],
-     scene(floor(), stone(STONE, BALL, '<fidelity mode="effect"/>')),
-     scene(floor(), stone(STONE, BALL, '<fidelity mode="physical"/>'))),
+    ("\"%s\" is to be an effect, and there is none for its model: it is simulated", ["make the mode physical"],
+     scene(stone(FLUID, EFFECT)), scene(stone(SMOKE, EFFECT))),
+    ("\"%s\" is to be an effect, and physics does not move it anyway", ["make the mode physical, or the role passive"],
+     scene(floor(BALL, EFFECT)), scene(floor(), stone(STONE, BALL, EFFECT))),
+    ("\"%s\" is an effect, so that it does not give way to the link \"%s\"", ["make the mode physical, or take the link away"],
+     scene(stone(STONE, EFFECT), links=CORD), scene(stone(STONE), links=CORD)),
+    ("\"%s\" is to be what was advised, and nothing was: it is physical", ["ask spore advise, with --apply"],
+     scene(stone(STONE, '<fidelity mode="auto"/>')), scene(stone(STONE, '<fidelity mode="auto" advice_hash="0"/>'))),
+    ("\"%s\" was advised on before the scene changed: it is physical", ["ask spore advise again, with --apply"],
+     scene(stone(STONE, '<fidelity mode="auto" advice="effect" advice_hash="0"/>')), scene(stone(STONE, '<fidelity mode="auto"/>'))),
     ("\"%s\" is to change its level by itself, and has but one", ["add <coarse> or <medium> to its fidelity"],
      levelled('automatic="error"', levels=""), levelled('automatic="error"')),
     ("the level of \"%s\" goes by distance, and nothing counts that could be near: it stays at its coarsest level",
@@ -506,6 +515,10 @@ PLAN = [
     ("left out: integration (no body moves by physics)", ["integration"], STILL, FREE),
     ("left out: the nonlinear solver (every body is integrated explicitly, and nothing touches or ties them)",
      ["the nonlinear solver", "every body is integrated explicitly, and nothing touches or ties them"], ALONE, scene(stone(STONE), solver=VERLET)),
+    ("effects move bodies in place of physics", [], scene(stone(SMOKE, EFFECT)), scene(stone(SMOKE))),
+    ("physics moves all bodies that no device moves", [], scene(stone(SMOKE)), scene(stone(SMOKE, EFFECT))),
+    ("left out: physics of effects (an effect moves these bodies)", ["physics of effects"], scene(stone(SMOKE, EFFECT)),
+     scene(stone(SMOKE))),
     ("left out: exchange of particles (nothing sucks particles away or lets them out)", ["exchange of particles"], FREE,
      instrument("suction", stone(FLUID))),
     ("left out: tools (no instrument does more than touch)", ["tools"], FREE, GRIPS),

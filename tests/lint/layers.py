@@ -27,7 +27,7 @@ KERNEL = set.union(*LAYERS[:7]) | {"exercise", "measure", "runtime"}
 # The models use core up to this room.
 MODELS_SEE = "body"
 # The folders of core/sim. Each may use the ones after it; the head, files in core/sim itself, may use all.
-SIM = ["lod", "tool", "topology", "link", "solve", "contact", "state"]
+SIM = ["lod", "effect", "tool", "topology", "link", "solve", "contact", "state"]
 # What every folder of core/sim may include of the head: what the world is made from, and its members. These headers
 # declare no function of the head that a folder may call: circles.py looks after that.
 SIM_PUBLIC = {"core/sim/world.h", "core/sim/world_private.h"}

@@ -17,7 +17,7 @@ static double smaller_radius(const SporeWorld *world, uint32_t a, uint32_t b) {
   return fmin(world->contact.spheres.radius[a], world->contact.spheres.radius[b]);
 }
 
-static bool is_held(const SporeBody *body) { return body->role == SPORE_PASSIVE && !body->frozen; }
+static bool is_held(const SporeBody *body) { return spore_body_is_physical(body) && !body->frozen; }
 
 static SporeBody *body_of(const SporeWorld *world, uint32_t sphere) {
   assert(sphere < world->contact.spheres.count);

@@ -65,7 +65,7 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   const SporeBody *body = &world->bodies[command->body];
   bool good = spore_vec3_is_finite(command->point) && spore_vec3_is_finite(command->vector) && command->number >= 0 &&
               isfinite(command->number);
-  if (!good || body->role != SPORE_PASSIVE) return;
+  if (!good || !spore_body_is_physical(body)) return;
   size_t index = spore_world_pull_index(world, command->body);
   SporeSpringTerm *term = &world->links.springs[index];
   if (!world->links.active[index]) grasp(world, index, body, command->point, command->number);

@@ -36,6 +36,7 @@ static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLodGra
   const SporeBody *body = &world->bodies[index];
   if (!body->lod || !body->lod->level[level].model) return _("it has no such level; add one to its fidelity");
   if (body->frozen) return _("it is frozen; thaw it first");
+  if (body->effect.on) return _("an effect moves it; give it back to physics first");
   if (body->altered) return _("it was cut, torn or coagulated, which no other level knows of; start again from time 0");
   if (is_sewn(world, index))
     return _("a needle leads it or a thread goes through it, at one level alone; free it first");
@@ -207,6 +208,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   memcpy(world->state.target_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->state.next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
   if (body->parking_gap > 0) spore_body_find_parked(body, q);
+  body->effect.settled = false;
   spore_pin_filter(body->held.blocks, body->held.count, world->state.next_v + body->v_offset);
   take_state(world, body);
   spore_body_thaw(body);

@@ -95,7 +95,7 @@ void spore_world_start_watch(SporeWorld *world) {
                          .energy = energy,
                          .had = least_energy(world) + energy.kinetic + fabs(energy.internal) + energy.contact};
   for (size_t b = 0; b < world->body_count; b++)
-    if (world->bodies[b].role == SPORE_PASSIVE) world->bodies[b].own_energy = own_energy(world, &world->bodies[b]);
+    if (spore_body_is_physical(&world->bodies[b])) world->bodies[b].own_energy = own_energy(world, &world->bodies[b]);
 }
 
 /* The body whose own energy grew most. */
@@ -162,7 +162,7 @@ bool spore_world_may_gain_energy(const SporeWorld *world) {
   bool gains = false;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->role != SPORE_PASSIVE) continue;
+    if (!spore_body_is_physical(body)) continue;
     if (body->method.chosen == SPORE_INTEGRATOR_STATIC) return false;
     gains |= spore_integrator(body->method.chosen)->damping < SPORE_DAMPING_FULL;
   }

@@ -175,7 +175,7 @@ static bool spring_of(const SporeWorld *world, uint32_t index, SporeSwing *swing
 bool spore_world_body_damping(const SporeWorld *world, uint32_t index, double *share) {
   assert(index < world->body_count && share);
   const SporeBody *body = &world->bodies[index];
-  if (body->role != SPORE_PASSIVE || body->frozen || spore_body_is_static(body) || body->model->type->rates)
+  if (!spore_body_is_physical(body) || body->frozen || spore_body_is_static(body) || body->model->type->rates)
     return false;
   if (spore_body_sweeps(body)) return false; /* what one element loses does not tell what a sweep over many does */
   SporeSwing swing;

@@ -71,3 +71,12 @@ bool spore_world_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMap
   if (body == SPORE_NO_BODY) return spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, point, 1, error);
   return spore_world_map(world, body, point, 1, mapping, error);
 }
+
+size_t spore_world_dof(const SporeWorld *world) {
+  size_t dof = world->state.dof;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->effect.on) dof -= 3 * (body->block_count - body->held.pin_count - body->model->spare_count);
+  }
+  return dof;
+}

@@ -37,7 +37,7 @@ SporeEnergy spore_world_energy(const SporeWorld *world) {
   SporeEnergy energy = {0, 0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (!body->model) continue;
+    if (!body->model || body->effect.on) continue;
     energy.kinetic += spore_body_kinetic_energy(world, body, world->state.v + body->v_offset);
     energy.contact += body->sleep.energy;
     energy.gravity += spore_body_gravity_energy(world, body, world->state.q + body->q_offset);

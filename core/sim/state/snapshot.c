@@ -231,6 +231,13 @@ uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot) {
   return hash_state(snapshot->q, snapshot->q_count, snapshot->v, snapshot->v_count, snapshot->step, snapshot->time_s);
 }
 
+uint64_t spore_world_body_hash(const SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
+  const SporeBody *body = &world->bodies[index];
+  uint64_t hash = spore_hash(SPORE_HASH_INIT, world->state.q + body->q_offset, body->q_count * sizeof(double));
+  return spore_hash(hash, world->state.v + body->v_offset, 3 * body->block_count * sizeof(double));
+}
+
 uint64_t spore_world_hash(const SporeWorld *world) {
   return hash_state(world->state.q, world->state.q_count, world->state.v, world->state.v_count, world->state.step,
                     spore_world_time_s(world));

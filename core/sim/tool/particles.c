@@ -110,8 +110,21 @@ SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body) {
   return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
 }
 
-/* Whether a flow is on: always, or by the button of its body. */
+/* Whether a tool that the body leads coagulated something in this step. */
+static bool coagulates(const SporeWorld *world, uint32_t body) {
+  for (size_t i = 0; i < world->tools.count; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    SporeToolState state = {0};
+    if (tool->bodies[0] != body || !tool->type->state) continue;
+    tool->type->state(tool, &state);
+    if (state.coagulated > 0) return true;
+  }
+  return false;
+}
+
+/* Whether a flow is on: always, or by what its body does. */
 static bool flows(const SporeWorld *world, int trigger, uint32_t body) {
+  if (trigger == SPORE_FLOW_COAGULATION) return coagulates(world, body);
   return trigger == SPORE_FLOW_ALWAYS || spore_tool_button(world, body);
 }
 
@@ -202,6 +215,12 @@ void spore_world_reset_particles(SporeWorld *world) {
 
 /* Setting up. */
 
+static bool is_bipolar(const SporeWorld *world, uint32_t body) {
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i]->bodies[0] == body && world->tools.all[i]->type->heats) return true;
+  return false;
+}
+
 static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDescription *from) {
   if (from->body >= world->body_count || !spore_body_is_fluid(&world->bodies[from->body]))
     return _("what comes out is not a fluid of particles; expected a body with such a model; choose one");
@@ -212,6 +231,9 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
   if (!spore_vec3_is_finite(from->point) || !spore_vec3_is_finite(from->direction) ||
       !(spore_vec3_length(from->direction) > 0))
     return _("the mouth has no direction; expected a vector of any length but 0; set it");
+  if (from->fields.trigger == SPORE_FLOW_COAGULATION && !is_bipolar(world, from->source))
+    return _("the mouth is in nothing that coagulates, so that nothing comes out; expected the body of a bipolar tool; "
+             "choose it, or another trigger");
   if (from->fields.trigger == SPORE_FLOW_BUTTON && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
     return _("the mouth is in nothing that a device moves, so that no button lets anything out; expected an active "
              "body; choose one, or let it flow always");
@@ -286,6 +308,8 @@ bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription
 
 const char *const spore_flow_triggers[] = {"always", "button", NULL};
 
+static const char *const triggers[] = {"always", "button", "coagulation", NULL};
+
 static const SporeParameter rows[] = {
     SPORE_ROW_REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
                    N_("Particles that come out in a second, at most: none comes where one still is.")),
@@ -294,8 +318,8 @@ static const SporeParameter rows[] = {
     SPORE_ROW_REAL(SporeEmitterFields, start, "s", 0, 1e9, 0, N_("When the first comes out.")),
     SPORE_ROW_COUNT(SporeEmitterFields, reserve, 0, 1e6, 100,
                     N_("Particles of the fluid that are kept back at the start, to come out here.")),
-    SPORE_ROW_CHOICE(SporeEmitterFields, trigger, spore_flow_triggers,
-                     N_("When they come out: always, or while the first button is down on the device of the instrument "
-                        "that the mouth is in.")),
+    SPORE_ROW_CHOICE(SporeEmitterFields, trigger, triggers,
+                     N_("When they come out: always; while the first button is down on the device of the instrument "
+                        "that the mouth is in; or while that instrument coagulates tissue.")),
 };
 const SporeParameterTable spore_emitter_parameters = SPORE_TABLE(rows, SporeEmitterFields);

@@ -100,8 +100,12 @@ typedef struct SporeJawFields {
   int trigger;               /* SporeTrigger */
 } SporeJawFields;
 
-/* When particles flow: always, or while the first button is down. */
-typedef enum SporeFlowTrigger { SPORE_FLOW_ALWAYS, SPORE_FLOW_BUTTON } SporeFlowTrigger;
+/* When particles flow. Suction knows the first two. */
+typedef enum SporeFlowTrigger {
+  SPORE_FLOW_ALWAYS,
+  SPORE_FLOW_BUTTON,     /* while the first button is down */
+  SPORE_FLOW_COAGULATION /* while the tool coagulates tissue */
+} SporeFlowTrigger;
 /* Parameters of suction. */
 typedef struct SporeSuctionFields {
   SporeToolFields tool;

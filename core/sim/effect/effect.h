@@ -1,0 +1,36 @@
+/* Special effects: bodies that a formula moves in place of physics. They have no unknowns and no limit on the time
+ * step, feel no force, and push nothing that physics moves but as something that a device moves does. What a body does
+ * as an effect follows from its model (SporeEffectForm). */
+#ifndef SPORE_SIM_EFFECT_H
+#define SPORE_SIM_EFFECT_H
+
+#include "core/sim/state/state.h"
+
+/* What a body knows of its effect. */
+typedef struct SporeBodyEffect {
+  bool on, at_start; /* it is an effect now; at time 0 */
+  bool settled;      /* it has the shape of time 0, and keeps that until an instrument comes near */
+  bool too_long;     /* the world's time step is too long for the body's physics: it stays an effect */
+} SporeBodyEffect;
+
+/* How an instrument dents tissue: the displacement that a smooth push makes in a large elastic block, made smaller
+ * farther away. One push, of unit length at `at`. */
+typedef struct SporeDent {
+  SporeVec3 at;   /* m */
+  SporeVec3 push; /* m, of what lies at `at` */
+  double width;   /* m, of the push */
+} SporeDent;
+/* How far the dents move what lies at `place` (m) at rest. */
+SporeVec3 spore_dents_at(const SporeDent *dents, size_t count, SporeVec3 place);
+
+/* Stage: moves all bodies that are effects, in the next state. */
+void spore_world_move_effects(SporeWorld *world);
+/* Whether some body is an effect now. */
+bool spore_world_has_effects(const SporeWorld *world);
+/* Makes the body an effect, or gives it back to physics. The body stays where it is, and goes on from there. The
+ * monitor says where that cannot be. */
+void spore_world_set_effect(SporeWorld *world, uint32_t body, bool on);
+/* Every body as it was at time 0. */
+void spore_world_reset_effects(SporeWorld *world);
+
+#endif
