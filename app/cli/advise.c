@@ -133,6 +133,27 @@ static const char *holder_of(SporeDocument *document, const SporeObject *body) {
   return NULL;
 }
 
+/* Whether a link ties the body. */
+static gboolean is_tied(SporeDocument *document, const SporeObject *body) {
+  const SporeObject *links = spore_document_section(document, "links");
+  for (guint i = 0; i < spore_object_child_count(links); i++) {
+    const SporeObject *link = spore_object_child(links, i);
+    const SporeParameterTable *table = spore_object_type(link)->table;
+    for (gsize p = 0; p < table->count; p++)
+      if (table->parameters[p].type == SPORE_REFERENCE &&
+          spore_object_reference(link, table->parameters[p].name) == body)
+        return TRUE;
+  }
+  return FALSE;
+}
+
+/* Whether the body is replayed as the effect that the kernel has for it. What stands still is a form of its own, and
+ * what a link ties would pull at the other end of the link: these are left out instead. */
+static gboolean has_effect(const Advice *advice, const SporeObject *body, guint32 index) {
+  SporeEffectForm form = spore_model_effect_form(spore_world_body_model(advice->run->simulation->world, index));
+  return (form == SPORE_EFFECT_CARRIED || form == SPORE_EFFECT_SHAPED) && !is_tied(advice->run->document, body);
+}
+
 static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed, SporeEvidence *evidence,
                               GError **error) {
   const SporeWorld *world = advice->run->simulation->world;
@@ -143,9 +164,8 @@ static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed
   evidence->held = holder_of(advice->run->document, object);
   evidence->alone = full->points.body_count == 1;
   if (evidence->held || evidence->alone) return TRUE;
-  gboolean has_effect = spore_model_effect_form(spore_world_body_model(world, body)) != SPORE_EFFECT_NONE;
-  const SporeVariation still = {.still = name},
-                       effect = {.effect = has_effect ? name : NULL, .left_out = has_effect ? NULL : name};
+  gboolean has = has_effect(advice, object, body);
+  const SporeVariation still = {.still = name}, effect = {.effect = has ? name : NULL, .left_out = has ? NULL : name};
   if (!try_form(advice, full, body, &effect, SPORE_VERDICT_EFFECT, evidence, error)) return FALSE;
   gboolean particles = spore_world_body_model(world, body)->type->particles != NULL;
   if (!particles && evidence->own_motion <= SPORE_EVIDENCE_STILL &&
@@ -262,8 +282,7 @@ static gboolean apply(Advice *advice, const SporeTrialPoints *points, const Spor
     guint32 index = points->bodies[k].body;
     SporeObject *body = spore_document_find(document, "body", spore_world_body_name(world, index));
     SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-    gboolean effect = verdicts[k] == SPORE_VERDICT_EFFECT &&
-                      spore_model_effect_form(spore_world_body_model(world, index)) != SPORE_EFFECT_NONE;
+    gboolean effect = verdicts[k] == SPORE_VERDICT_EFFECT && has_effect(advice, body, index);
     if (!effect && !(fidelity && (int)spore_object_number(fidelity, "mode") != SPORE_FIDELITY_PHYSICAL)) continue;
     if (!spore_fidelity_advise(document, body, effect, error)) return FALSE;
     ++*count;

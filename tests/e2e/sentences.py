@@ -517,7 +517,7 @@ PLAN = [
      ["the nonlinear solver", "every body is integrated explicitly, and nothing touches or ties them"], ALONE, scene(stone(STONE), solver=VERLET)),
     ("effects move bodies in place of physics", [], scene(stone(SMOKE, EFFECT)), scene(stone(SMOKE))),
     ("physics moves all bodies that no device moves", [], scene(stone(SMOKE)), scene(stone(SMOKE, EFFECT))),
-    ("left out: physics of effects (an effect moves these bodies)", ["physics of effects"], scene(stone(SMOKE, EFFECT)),
+    ("left out: physics of effects (an effect moves these bodies)", ["physics of effects", "an effect moves these bodies"], scene(stone(SMOKE, EFFECT)),
      scene(stone(SMOKE))),
     ("left out: exchange of particles (nothing sucks particles away or lets them out)", ["exchange of particles"], FREE,
      instrument("suction", stone(FLUID))),

@@ -1042,6 +1042,21 @@ def plan_prunes_alike():
     assert steam["equal"] == "bound" and 0 <= steam["worst"] < 1e-4, steam
 
 
+@check
+def effects_change_nothing_else():
+    """Steam as an effect and as physics: bodies that it does not touch are the same to the bit; coagulation lets it out."""
+    hashes = {}
+    for mode in ("effect", "physical"):
+        answer = report("run", SCENES / "plate7-steam.spore", "--time", "2", "--set", f"bodies/steam/fidelity/mode={mode}")
+        bodies = {body["name"]: body for body in answer["bodies"]}
+        assert bodies["steam"]["moved_by"] == {"effect": "effect", "physical": "physics"}[mode], bodies
+        hashes[mode] = {name: body["hash"] for name, body in bodies.items()}
+        stages = {stage["name"] for stage in answer["stages"]}
+        assert ("effects" in stages) == (mode == "effect"), stages
+    different = {name for name in hashes["effect"] if hashes["effect"][name] != hashes["physical"][name]}
+    assert different == {"steam"}, different
+
+
 def hanging(name, density, links='<spring name="tie" body_a="organ" body_b="extra" point_a="0 -0.03 0" point_b="0 -0.07 0" stiffness="20" damping="0.05"/>'):
     """An organ on a spring, and a ball of that density that hangs from it."""
     file("hang/ball.off", shapes.off(*shapes.sphere()))
@@ -1085,6 +1100,13 @@ def advise_tells_physical_from_effect():
     text = held.read_text().replace("</bodies>", '<body name="hand" role="active"><visual mesh="ball"/></body></bodies>')
     extra = {e["id"]: e for e in report("advise", file("hang/held.spore", text))["elements"]}["bodies/extra"]
     assert extra["verdict"] == "physical" and "tie" in extra["reason"] and extra["influence"] is None, extra
+    advised = file("hang/advised.spore", "")
+    mist = '<body name="mist" position="1 0 0"><mechanical geometry="ball"><smoke particles="200"/></mechanical></body></bodies>'
+    report("advise", file("hang/mist.spore", hanging("misty", 1000).read_text().replace("</bodies>", mist)), "-o", advised)
+    if "advice=\"effect\"" in advised.read_text():  # else the clock says that nothing is saved
+        for changes, mist in ((), "effect"), (("--set", "bodies/organ/velocity=0 0.1 0"), "physics"):
+            moved = {b["name"]: b["moved_by"] for b in report("run", advised, "-n", "3", *changes)["bodies"]}
+            assert moved == {"organ": "physics", "extra": "physics", "mist": mist}, moved
     alone = report("advise", soft_ball())
     assert [e["verdict"] for e in alone["elements"]] == ["physical"] and alone["suggestion"] == []
 
