@@ -7,11 +7,11 @@
 
 /* Forces that no sweep meets move the bodies as in symplectic Euler: v = v0 + h M^-1 f(q0, v0), q = q0 + h v. The
  * elements of bodies that can be met so are met one after the other, each implicitly by itself (SporeModelSweep), after
- * a part s of the step, and then their contacts: q_s = q0 + s h (v0 + s (v - v0)) is where the other forces led, and
- * the elements move it. What comes out is followed on: u = (q_s - q0)/(s h), q1 = q0 + h u, v1 = v0 + (u - v0)/s. That
- * is a splitting of the equations of motion: of first order, and nothing is solved. At s = 1/2 the method would be of
- * second order, and at 1 it would damp most: s is as little as bears any step of what is stiff, found by trial for each
- * kind of elements, see tests/stability/test_position_based.c. */
+ * a part s of the step: q_s = q0 + s h (v0 + s (v - v0)) is where the other forces led, and the elements move it. What
+ * comes out is followed on: u = (q_s - q0)/(s h), q1 = q0 + h u, v1 = v0 + (u - v0)/s. There, at the end of the step,
+ * contacts are met. That is a splitting of the equations of motion: of first order, and nothing is solved. At s = 1/2
+ * the method would be of second order, and at 1 it would damp most: s is as little as bears any step of what is stiff,
+ * found by trial for each kind of elements, see tests/stability/test_position_based.c. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
   assert(h > 0 && q0 != q1 && v0 != v1);

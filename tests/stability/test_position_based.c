@@ -230,6 +230,34 @@ static void contact_bears_any_step(void) {
       }
 }
 
+/* What strikes the floor fast leaves it no faster, whatever its step and the law, and no other method is asked. */
+static void strikes_without_gain(void) {
+  static const double steps[] = {1e-2, 2e-3}, stiffness[] = {1e3, 1e5, 1e7};
+  const double speed = 3;
+  for (unsigned s = 0; s < G_N_ELEMENTS(steps); s++)
+    for (unsigned k = 0; k < G_N_ELEMENTS(stiffness); k++) {
+      const SporeContactFields contact = {.stiffness = stiffness[k]};
+      Rig *rig = blocks(1, steps[s], &contact, spore_vec3(0, 0, 0));
+      rig->description.solver.maximum_speed = 1000;
+      SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, 1);
+      body->pose.position.y = 0.1, body->velocity = spore_vec3(0, -speed, 0);
+      SporeWorld *world = rig_build(rig);
+      double fastest = 0, lowest = 1;
+      for (unsigned i = 0; i < (unsigned)lround(0.2 / steps[s]); i++) {
+        double before = middle(world, 1).y;
+        g_assert_cmpuint(solved_steps(world, 1), ==, 0);
+        double now = middle(world, 1).y;
+        fastest = fmax(fastest, (now - before) / steps[s]), lowest = fmin(lowest, now);
+      }
+      g_test_message("step %g s, %g N/m: leaves with %.3g m/s; %s", steps[s], stiffness[k], fastest,
+                     rig_last_message(world));
+      g_assert_cmpfloat(fastest, >, 0);
+      g_assert_cmpfloat(fastest, <, speed);
+      g_assert_cmpfloat(lowest, >, -0.02);
+      rig_free(rig);
+    }
+}
+
 static double contact_error(double step, SporeIntegratorKind kind, double **exact) {
   const SporeContactFields contact = {.stiffness = 300, .damping = 0.1, .friction = 0.2};
   Rig *rig = blocks(1, step, &contact, spore_vec3(3, -9.81, 0));
@@ -391,6 +419,7 @@ int main(int argc, char **argv) {
   g_test_add_data_func("/position_based/rests_in_contact/two", GUINT_TO_POINTER(2), rests_in_contact);
   g_test_add_func("/position_based/friction_holds", friction_holds);
   g_test_add_func("/position_based/contact_bears_any_step", contact_bears_any_step);
+  g_test_add_func("/position_based/strikes_without_gain", strikes_without_gain);
   g_test_add_func("/position_based/contact_converges", contact_converges);
   g_test_add_func("/position_based/same_bits", same_bits);
   g_test_add_func("/position_based/rigid_falls_back", rigid_falls_back);

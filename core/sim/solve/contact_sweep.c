@@ -1,10 +1,12 @@
 /* Contacts met one after the other, each implicitly by itself: what the method position_based does with them.
  *
- * With the law of core/collide/response.h, the inverse mass w of both ends and the ends where they are h seconds after
- * the step began, a contact moves them so that its force is that of where and how fast they are then:
- *   N = N(d - h^2 w N, g + h w N),   T = (k s + c s(d) w_t) / (1 + w (h^2 k + h c s(d))), cut to the length mu N.
- * N is found by Newton's method: the law falls with N, so that there is one. Normals are held, as in all methods.
- * Ends of more than one node move by their weights. */
+ * With the law of core/collide/response.h, the inverse mass w of both ends and the ends where all else led them in the
+ * h seconds of the step, a contact moves them so that its force is that of where they are then, and of how fast they
+ * came there: N = N(d - h^2 w N, g + h w N),   T = (k s + c s(d) w_t) / (1 + w (h^2 k + h c s(d))), cut to the length
+ * mu N. N is found by Newton's method: the law falls with N, so that there is one. Normals are held, as in all methods.
+ * Ends of more than one node move by their weights. It is implicit Euler, which takes energy from what strikes and
+ * never gives any: a contact that was met within the step and followed to its end, as other elements are, would throw
+ * out what it let in. */
 #include <assert.h>
 #include <math.h>
 
@@ -55,28 +57,31 @@ static Met look(const SporeIslandSystem *system, const SporeEnd *end, const Spor
     return (Met){.moved = spore_vec3_scale(system->start_s + at->h, end->velocity),
                  .since = spore_vec3_scale(at->h, end->velocity)};
   Nodes nodes = nodes_of(system, end);
-  const double *before = at->before + system->world->solve.local_sites[end->body].q;
+  const size_t first = system->world->solve.local_sites[end->body].q;
   Met met = {.moved = spore_vec3_scale(-1, end->position)};
   for (uint32_t k = nodes.start; k < nodes.end; k++) {
     double weight;
     size_t node = node_of(end, &nodes, k, &weight);
-    const double *row = at->now + 4 * (nodes.first + node);
-    SporeVec3 place = spore_vec3_load(row);
+    SporeVec3 place = spore_vec3_load(at->q + first + 3 * node);
+    SporeVec3 since = spore_vec3_sub(place, spore_vec3_load(at->before + first + 3 * node));
     met.moved = spore_vec3_add_scaled(met.moved, weight, place);
-    met.since = spore_vec3_add_scaled(met.since, weight, spore_vec3_sub(place, spore_vec3_load(before + 3 * node)));
-    met.give += weight * weight * row[3];
+    met.since = spore_vec3_add_scaled(met.since, weight, since);
+    met.give += weight * weight * at->rows[4 * (nodes.first + node) + 3];
   }
   return met;
 }
 
-/* Moves the end's nodes by a force of h^2 `push`. */
-static void move(const SporeIslandSystem *system, const SporeEnd *end, const SporeContactSweep *at, SporeVec3 push) {
+/* Moves the end's nodes by a force that acts all the step. */
+static void move(const SporeIslandSystem *system, const SporeEnd *end, const SporeContactSweep *at, SporeVec3 force) {
   if (end->prescribed) return;
   Nodes nodes = nodes_of(system, end);
+  const SporeSite *site = &system->world->solve.local_sites[end->body];
   for (uint32_t k = nodes.start; k < nodes.end; k++) {
     double weight;
-    double *row = at->now + 4 * (nodes.first + node_of(end, &nodes, k, &weight));
-    spore_vec3_accumulate(row, spore_vec3_scale(weight * row[3], push));
+    size_t node = node_of(end, &nodes, k, &weight);
+    SporeVec3 kick = spore_vec3_scale(at->h * weight * at->rows[4 * (nodes.first + node) + 3], force);
+    spore_vec3_accumulate(at->v + site->v + 3 * node, kick);
+    spore_vec3_accumulate(at->q + site->q + 3 * node, spore_vec3_scale(at->h, kick));
   }
 }
 
@@ -127,11 +132,11 @@ static void meet(const SporeIslandSystem *system, SporeContactTerm *term, const 
     state.stretch = spore_vec3_add(term->stretch, spore_vec3_add_scaled(moved, -gone, term->normal));
     term->force = spore_vec3_sub(term->force, hold_back(&term->law, &state, term->pressing, at->h, give));
   }
-  move(system, &term->a, at, spore_vec3_scale(at->h * at->h, term->force));
-  move(system, &term->b, at, spore_vec3_scale(-at->h * at->h, term->force));
+  move(system, &term->a, at, term->force);
+  move(system, &term->b, at, spore_vec3_scale(-1, term->force));
 }
 
 void spore_island_system_meet_contacts(const SporeIslandSystem *system, const SporeContactSweep *at) {
-  assert(system->meets && at->h > 0 && at->before && at->now);
+  assert(system->meets && at->h > 0 && at->before && at->q && at->v && at->rows);
   for (size_t i = 0; i < system->island->contact_count; i++) meet(system, spore_island_system_contact(system, i), at);
 }

@@ -109,14 +109,14 @@ static bool some_go_alone(const SporeWorld *world, const SporeIsland *island) {
 }
 
 /* An explicit island with contacts or links that its step does not resolve takes this step by implicit Euler, unless
- * the contacts are met in its sweep and bodies do not meet fast: the contacts of those are found too late, and what
- * they enter with would be energy from nothing. Particles keep their own method: only contacts and links are implicit.
- */
+ * the contacts are met in its sweep. Particles keep their own method: only contacts and links are implicit. */
 static void couple(SporeWorld *world, SporeIsland *island) {
   if (spore_integrator(island->integrator)->implicit) return;
   SporeIslandSystem system = {.world = world, .island = island};
   system.meets = spore_island_system_can_meet(&system);
-  if (!meets_in_step(world, island) && spore_island_system_resolves(&system, step_of(world, island), true)) return;
+  if ((system.meets || !meets_in_step(world, island)) &&
+      spore_island_system_resolves(&system, step_of(world, island), true))
+    return;
   island->multirate = some_go_alone(world, island);
   island->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
   spore_island_gather(world, island); /* with the history of that method */

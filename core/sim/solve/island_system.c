@@ -64,10 +64,8 @@ static double *rows_of(const SporeIslandSystem *system, size_t b, SporeRowsStep 
   return rows + 4 * (site->v / 3);
 }
 
-#define CONTACT_PART 0.8 /* as SporeModelSweep.part, of contacts */
-
 static double part_of(const SporeIslandSystem *system) {
-  double part = system->meets ? CONTACT_PART : 0;
+  double part = 0;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeModel *model = spore_island_system_body(system, b, &site)->model;
@@ -90,14 +88,15 @@ static void sweep(void *data, double h, const double *q0, const double *v0, doub
     for (size_t k = 0; k < body->held.count; k++) now[4 * (size_t)body->held.blocks[k] + 3] = 0;
     body->model->type->sweep->sweep(body->model, &(SporeSweep){.h = part * h, .before = step.x0, .now = now});
   }
-  if (system->meets)
-    spore_island_system_meet_contacts(system, &(SporeContactSweep){.h = part * h, .before = q0, .now = rows});
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     SporeRowsStep step = whole;
     const double *now = rows_of(system, b, &step, rows);
     if (now) spore_rows_follow(spore_island_system_body(system, b, &site)->block_count, now, &step);
   }
+  if (system->meets)
+    spore_island_system_meet_contacts(system,
+                                      &(SporeContactSweep){.h = h, .before = q0, .q = q1, .v = v1, .rows = rows});
 }
 
 static void body_force(void *data, const double *q, const double *v, double *f) {

@@ -161,11 +161,12 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system);
 void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
                                             double *f);
 
-/* Where contacts are met one after the other: so many seconds after the integrator's step began. */
+/* Where contacts are met one after the other: at the end of a step of an integrator. */
 typedef struct SporeContactSweep {
-  double h;
-  const double *before; /* q of the island when that step began */
-  double *now;          /* of the island's blocks, as in SporeSweep */
+  double h;             /* s, the step */
+  const double *before; /* q of the island when it began */
+  double *q, *v;        /* where it ends */
+  const double *rows;   /* of the island's blocks, as in SporeSweep: the inverse masses count */
 } SporeContactSweep;
 
 /* contact_sweep.c. Whether sweeps may move all that the contacts of the island touch, and there are some. One sweep
