@@ -11,6 +11,80 @@
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
 
+/* Where the results go. */
+typedef struct Output {
+  char *curve, *scene, *root;
+  int kind; /* SporeCentrelineBody; -1: none, the curve alone */
+  gint64 control_points;
+} Output;
+
+/* What is made: the line, and the root of the mesentery of an intestine. */
+typedef struct Result {
+  SporeCurve curve, root;
+  SporeCentrelineReport figures;
+  SporeCentrelineRoot mesentery;
+} Result;
+
+static void clear_result(Result *result) {
+  spore_curve_clear(&result->curve);
+  spore_curve_clear(&result->root);
+}
+
+static gboolean read_root(const char *file, SporeCurve *root, GError **error) {
+  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a curve"), error);
+  gsize size = 0;
+  const char *text = content ? g_bytes_get_data(content, &size) : NULL;
+  return content && spore_curve_parse(file, text, size, root, error);
+}
+
+/* The root that is given, or else one that is proposed, of an intestine. */
+static gboolean find_root(const Output *output, gint64 degree, Result *result, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  if (output->kind != SPORE_CENTRELINE_INTESTINE || (!output->root && degree == 0)) return TRUE;
+  if (output->root && !read_root(output->root, &result->root, error)) return FALSE;
+  if ((output->root || spore_centreline_root(&result->curve, (size_t)degree, &result->root, &fault)) &&
+      spore_centreline_root_measure(&result->curve, &result->root, &result->mesentery, &fault))
+    return TRUE;
+  spore_error_at(&fault, "--root-degree");
+  return spore_error_propagate(&fault, error);
+}
+
+static gboolean make_line(SporeCli *cli, const SporeTriangleMesh *mesh, const char *place,
+                          const SporeCurveFields *fields, const Output *output, Result *result, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  const SporeCentrelineOptions options = spore_edit_centreline_options(fields);
+  if (spore_centreline_from_mesh(mesh, &options, &result->curve, &result->figures, spore_cli_progress(cli), &fault))
+    return find_root(output, fields->root_degree, result, error);
+  spore_error_at(&fault, place);
+  return spore_error_propagate(&fault, error);
+}
+
+static SporeCentrelineBodyOptions body_options(const Output *output, const Result *result) {
+  return (SporeCentrelineBodyOptions){.body = (SporeCentrelineBody)output->kind,
+                                      .control_points = (size_t)output->control_points,
+                                      .loops_apart = result->figures.approach > SPORE_CENTRELINE_APART,
+                                      .root = result->root.count ? &result->root : NULL};
+}
+
+static void report_root(SporeCli *cli, const Output *output, const Result *result) {
+  const SporeCentrelineRoot *mesentery = &result->mesentery;
+  if (result->root.count == 0) return;
+  spore_cli_open(cli, "root");
+  spore_cli_text(cli, "from", output->root ? output->root : "proposed");
+  spore_cli_number(cli, "length", mesentery->length);
+  spore_cli_number(cli, "mesentery_min", mesentery->shortest);
+  spore_cli_number(cli, "mesentery_mean", mesentery->mean);
+  spore_cli_number(cli, "mesentery_max", mesentery->longest);
+  spore_cli_close(cli);
+  spore_cli_say(cli,
+                output->root
+                    ? _("the mesentery begins at the root that was given, %.3g m long: %.3g m from there to the "
+                        "line (%.3g to %.3g)\n")
+                    : _("the mesentery begins at a root through the middle of the loops, proposed, %.3g m long: "
+                        "%.3g m from there to the line (%.3g to %.3g); another one: --root F.curve\n"),
+                mesentery->length, mesentery->mean, mesentery->shortest, mesentery->longest);
+}
+
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
   spore_cli_open_array(cli, "side_branches");
@@ -32,7 +106,9 @@ static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) 
   spore_cli_close_array(cli);
 }
 
-static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentrelineReport *report) {
+static void report(SporeCli *cli, const Output *output, const Result *result) {
+  const SporeCurve *curve = &result->curve;
+  const SporeCentrelineReport *report = &result->figures;
   spore_cli_count(cli, "points", (gint64)curve->count);
   spore_cli_number(cli, "length", report->length);
   spore_cli_open(cli, "radius");
@@ -65,15 +141,9 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
                     "no part of the tube\n"),
                   100 * (1 - report->cover));
   if (report->approach < 1) spore_cli_say(cli, _("loops of the organ touch: they overlap as tubes of its radius\n"));
+  report_root(cli, output, result);
   report_branches(cli, report);
 }
-
-/* Where the results go. */
-typedef struct Output {
-  char *curve, *scene;
-  int kind; /* SporeCentrelineBody; -1: none, the curve alone */
-  gint64 control_points;
-} Output;
 
 /* The mesh that the body shows: the organ's own surface. */
 static SporeObject *insert_mesh(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
@@ -106,14 +176,12 @@ static gboolean make_body(SporeDocument *document, const Input *input, const Spo
   return spore_centreline_body_insert(document, name, curve, options, mesh, error) != NULL;
 }
 
-static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve *curve,
-                            const SporeCentrelineReport *figures, const Output *output, GError **error) {
-  SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)output->kind,
-                                        .control_points = (size_t)output->control_points,
-                                        .loops_apart = figures->approach > SPORE_CENTRELINE_APART};
-  bool carried = spore_centreline_carries(curve, &input->mesh);
+static gboolean write_scene(SporeCli *cli, const Input *input, const Result *result, const Output *output,
+                            GError **error) {
+  SporeCentrelineBodyOptions options = body_options(output, result);
+  bool carried = spore_centreline_carries(&result->curve, &input->mesh);
   SporeDocument *document = spore_cli_new_scene(cli, output->scene);
-  gboolean done = make_body(document, input, curve, &options, carried, error) &&
+  gboolean done = make_body(document, input, &result->curve, &options, carried, error) &&
                   spore_cli_save_scene(document, output->scene, error);
   spore_document_free(document);
   if (!done) return FALSE;
@@ -131,10 +199,10 @@ static gboolean write_curve(const char *file, const SporeCurve *curve, GError **
   return spore_write_file(file, text, size, error);
 }
 
-static gboolean write_results(SporeCli *cli, const Input *input, const SporeCurve *curve,
-                              const SporeCentrelineReport *figures, const Output *output, GError **error) {
-  return (!output->curve || write_curve(output->curve, curve, error)) &&
-         (!output->scene || write_scene(cli, input, curve, figures, output, error));
+static gboolean write_results(SporeCli *cli, const Input *input, const Result *result, const Output *output,
+                              GError **error) {
+  return (!output->curve || write_curve(output->curve, &result->curve, error)) &&
+         (!output->scene || write_scene(cli, input, result, output, error));
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
@@ -142,52 +210,38 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   SporeCurveFields fields;
   spore_parameters_set_initial(&asked->table, &fields);
   spore_cli_options_fill(asked, &fields);
-  const SporeCentrelineOptions options = spore_edit_centreline_options(&fields);
   GError *error = NULL;
-  SporeError fault = SPORE_ERROR_INIT;
   Input input = {.file = file};
-  SporeCurve curve = {0};
-  SporeCentrelineReport figures = {0};
+  Result result = {0};
   gboolean done =
       (!output->curve || spore_cli_has_room(output->curve, file, &error)) &&
       (!output->scene || spore_cli_has_room_for_scene(output->scene, file, &error)) &&
       spore_cli_read_mesh(cli, file, unit, frame, &input.mesh, &input.content, &input.unit, &input.frame, &error);
-  if (done && !spore_centreline_from_mesh(&input.mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
-    spore_error_at(&fault, file);
-    done = spore_error_propagate(&fault, &error);
-  }
-  done = done && write_results(cli, &input, &curve, &figures, output, &error);
-  if (done) report(cli, &curve, &figures);
+  done = done && make_line(cli, &input.mesh, file, &fields, output, &result, &error) &&
+         write_results(cli, &input, &result, output, &error);
+  if (done) report(cli, output, &result);
   spore_triangle_mesh_clear(&input.mesh);
   if (input.content) g_bytes_unref(input.content);
-  spore_curve_clear(&curve);
+  clear_result(&result);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* Works from the mesh that a body of a scene shows, and gives the result to that body. */
 static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
                         const Output *output, SporeSceneBody *scene, GError **error) {
-  SporeError fault = SPORE_ERROR_INIT;
   SporeCurveFields fields;
-  SporeCurve curve = {0};
-  SporeCentrelineReport figures = {0};
+  Result result = {0};
   if (!spore_cli_open_body(cli, file, body, asked, scene, &fields, error)) return FALSE;
-  const SporeCentrelineOptions options = spore_edit_centreline_options(&fields);
-  if (!spore_centreline_from_mesh(scene->mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
-    spore_error_at(&fault, spore_object_name(scene->source));
-    return spore_error_propagate(&fault, error);
-  }
+  gboolean done = make_line(cli, scene->mesh, spore_object_name(scene->source), &fields, output, &result, error);
   const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
-  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)output->kind,
-                                            .control_points = (size_t)output->control_points,
-                                            .loops_apart = figures.approach > SPORE_CENTRELINE_APART};
-  gboolean done =
-      spore_edit_use_curve(scene->document, scene->body, &from, &curve, output->kind < 0 ? NULL : &along, error);
+  const SporeCentrelineBodyOptions along = body_options(output, &result);
+  done = done && spore_edit_use_curve(scene->document, scene->body, &from, &result.curve,
+                                      output->kind < 0 ? NULL : &along, error);
   if (done) {
-    report(cli, &curve, &figures);
+    report(cli, output, &result);
     done = spore_cli_save_body(cli, scene, file, error);
   }
-  spore_curve_clear(&curve);
+  clear_result(&result);
   return done;
 }
 
@@ -223,6 +277,10 @@ static int check(const SporeCliOptions *options, const Output *output, gboolean 
   if (output->scene && output->kind < 0)
     return spore_cli_usage(_("spore centreline: --as curve makes no body; expected thread, tube or intestine with "
                              "--scene; leave --scene out, or choose one of them"));
+  if (output->root && output->kind != SPORE_CENTRELINE_INTESTINE)
+    return spore_cli_usage(
+        _("spore centreline: --root is of an intestine's mesentery; expected --as intestine with it; "
+          "leave it out, or make an intestine"));
   if (output->control_points != 0 && (output->control_points < 4 || output->control_points > 100000))
     return spore_cli_usage(_("spore centreline: --control-points %lld; expected 4 to 100000; give another number"),
                            (long long)output->control_points);
@@ -242,6 +300,8 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"outside", N_("share of the points that lie outside of the organ")},
       {"approach", N_("least distance of two loops, of the sum of their radii; below 1 they touch, null: no loops")},
       {"seconds", N_("that it took")},
+      {"root", N_("of an intestine's mesentery: from (a file, or proposed), length, and mesentery_min, mesentery_mean, "
+                  "mesentery_max: from there to the line, m")},
       {"branches", N_("number of branches left out: the line takes the longest way")},
       {"side_branches", N_("the longest of them: from (m along the line), length (m), end (m), kind (branch or loop)")},
       {"skin", N_("with --scene: mesh where the body carries the mesh, own where it shows a tube around the line")},
@@ -263,6 +323,9 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output.curve, N_("File to write, x y z r a line"), "F.curve"},
       {"scene", 's', 0, G_OPTION_ARG_FILENAME, &output.scene, N_("Scene to write, with a body along the line"),
        "F.spore"},
+      {"root", 0, 0, G_OPTION_ARG_FILENAME, &output.root,
+       N_("Root of an intestine's mesentery, x y z r a line, m (default: proposed, through the middle of the loops)"),
+       "F.curve"},
       SPORE_SCENE_BODY_ENTRY(&body),
       {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
        N_("Control points of the body (default: one each two radii)"), "N"},
@@ -281,6 +344,7 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
   g_free(frame);
   g_free(output.curve);
   g_free(output.scene);
+  g_free(output.root);
   g_free(body);
   return status;
 }

@@ -20,9 +20,12 @@ const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine"
 #define STEP 0.25        /* distance, in mean radii, of the places along the line that vertices may belong to */
 #define PIN 4.0          /* in radii of the end: a pin of this size also keeps the end from turning */
 #define ROOT_PIN                                                                                                       \
-  0.5 /* in mean radii: the root's place is computed from the line, and the spline differs a little from the line */
+  0.5 /* in mean radii: the place of the mesentery's frame is computed from the line, and the spline differs a little  \
+         from the line */
 #define WALL_DENSITY 1060 /* kg/m^3, both the intestine's by default */
 #define CONTENT_DENSITY 300
+#define SAG 0.5 /* in mean radii: how far the weight of a bowel stretches the mesentery that it hangs from */
+#define GRAVITY 9.81
 
 static SporeVec3 point(const SporeCurve *curve, size_t i) { return spore_vec3_load(curve->points + 4 * i); }
 
@@ -84,14 +87,48 @@ static SporeObject *insert(SporeDocument *document, SporeObject *parent, const c
   return spore_document_insert(document, parent, element, name, G_MAXUINT, error);
 }
 
-static SporeObject *insert_curve(SporeDocument *document, const char *name, const SporeCurve *curve, GError **error) {
+/* The curve asset of that name, which is made where there is none, gets this curve. */
+static SporeObject *put_curve(SporeDocument *document, const char *name, const SporeCurve *curve, GError **error) {
   gsize size = 0;
   char *text = spore_curve_format(curve, &size);
   g_autofree char *file = spore_content_file_name(name, "curve", text, size);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
   spore_document_put_blob(document, file, content);
-  SporeObject *asset = insert(document, spore_document_section(document, "assets"), "curve", name, error);
+  SporeObject *asset = spore_document_find(document, "curve", name);
+  if (!asset) asset = insert(document, spore_document_section(document, "assets"), "curve", name, error);
   return asset && spore_document_set_text(document, asset, "file", file, error) ? asset : NULL;
+}
+
+/* Mass of the line's i-th straight piece, kg. */
+static double mass_of(const SporeCurve *curve, size_t i) {
+  double outer = 0.5 * (curve->points[4 * i - 1] + curve->points[4 * i + 3]);
+  double wall = fmin(BOWEL_WALL, WALL * mean_radius(curve)), inner = fmax(outer - wall, 0);
+  return G_PI * spore_vec3_distance(point(curve, i - 1), point(curve, i)) *
+         (WALL_DENSITY * (outer * outer - inner * inner) + CONTENT_DENSITY * inner * inner);
+}
+
+/* The line's centre of mass, where the mesentery's frame is. */
+static SporeVec3 centre_of(const SporeCurve *curve, double *mass) {
+  SporeVec3 sum = {0, 0, 0};
+  *mass = 0;
+  for (size_t i = 1; i < curve->count; i++) {
+    double piece = mass_of(curve, i);
+    sum = spore_vec3_add_scaled(sum, 0.5 * piece, spore_vec3_add(point(curve, i - 1), point(curve, i)));
+    *mass += piece;
+  }
+  return spore_vec3_scale(1 / *mass, sum);
+}
+
+/* The mesentery hangs from the root, and bears the bowel's weight. */
+static gboolean set_root(SporeDocument *document, SporeObject *model, const char *name, const SporeCurve *curve,
+                         const SporeCurve *root, GError **error) {
+  g_autofree char *root_name = g_strdup_printf("%s-root", name);
+  SporeObject *asset = put_curve(document, root_name, root, error);
+  double mass;
+  centre_of(curve, &mass);
+  double stiffness = GRAVITY * mass / spore_curve_length(curve) / (SAG * mean_radius(curve));
+  return asset && spore_document_set_text(document, spore_object_parent(model), "root", root_name, error) &&
+         set_number(document, model, "mesentery_stiffness", stiffness, error);
 }
 
 static gboolean insert_model(SporeDocument *document, SporeObject *body, SporeObject *line, const SporeCurve *curve,
@@ -104,6 +141,8 @@ static gboolean insert_model(SporeDocument *document, SporeObject *body, SporeOb
     return FALSE;
   SporeObject *model = insert(document, mechanical, bowel ? "intestine" : "spline_1d", NULL, error);
   if (!model || !set_count(document, model, "control_points", count, error)) return FALSE;
+  if (bowel && options->root && !set_root(document, model, spore_object_name(body), curve, options->root, error))
+    return FALSE;
   if (bowel) return WALL * radius >= BOWEL_WALL || set_number(document, model, "wall_thickness", WALL * radius, error);
   return !tube || (set_number(document, model, "young_modulus", TUBE_YOUNG, error) &&
                    set_number(document, model, "twist_modulus", TUBE_YOUNG / 3, error) &&
@@ -138,25 +177,11 @@ static gboolean insert_pin(SporeDocument *document, SporeObject *body, const cha
          set_number(document, pin, "radius", radius, error);
 }
 
-/* The line's centre of mass, where the mesentery has its root. */
-static SporeVec3 root_of(const SporeCurve *curve) {
-  SporeVec3 sum = {0, 0, 0};
-  double mass = 0, wall = fmin(BOWEL_WALL, WALL * mean_radius(curve));
-  for (size_t i = 1; i < curve->count; i++) {
-    SporeVec3 a = point(curve, i - 1), b = point(curve, i);
-    double outer = 0.5 * (curve->points[4 * i - 1] + curve->points[4 * i + 3]), inner = fmax(outer - wall, 0);
-    double piece =
-        spore_vec3_distance(a, b) * (WALL_DENSITY * (outer * outer - inner * inner) + CONTENT_DENSITY * inner * inner);
-    sum = spore_vec3_add_scaled(sum, 0.5 * piece, spore_vec3_add(a, b));
-    mass += piece;
-  }
-  return spore_vec3_scale(1 / mass, sum);
-}
-
 static gboolean hold(SporeDocument *document, SporeObject *body, const SporeCurve *curve, SporeCentrelineBody kind,
                      GError **error) {
+  double mass;
   if (kind == SPORE_CENTRELINE_INTESTINE)
-    return insert_pin(document, body, "mesentery", root_of(curve), ROOT_PIN * mean_radius(curve), error);
+    return insert_pin(document, body, "mesentery", centre_of(curve, &mass), ROOT_PIN * mean_radius(curve), error);
   size_t last = curve->count - 1;
   return insert_pin(document, body, "beginning", point(curve, 0), PIN * curve->points[3], error) &&
          insert_pin(document, body, "end", point(curve, last), PIN * curve->points[4 * last + 3], error);
@@ -191,7 +216,7 @@ SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *n
                                           const SporeCentrelineBodyOptions *options, SporeObject *mesh,
                                           GError **error) {
   g_autofree char *line_name = g_strdup_printf("%s-line", name);
-  SporeObject *line = insert_curve(document, line_name, curve, error);
+  SporeObject *line = put_curve(document, line_name, curve, error);
   if (!line) return NULL;
   SporeObject *body = insert(document, spore_document_section(document, "bodies"), "body", name, error);
   return body && spore_centreline_body_fill(document, body, line, curve, options, mesh, error) ? body : NULL;

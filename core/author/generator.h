@@ -43,6 +43,7 @@ typedef struct SporeCurveFields {
   int64_t points;
   double tolerance;                     /* of the radius */
   double first_place[3], last_place[3]; /* m; the same: the organ's own ends */
+  int64_t root_degree;                  /* of the root proposed for an intestine's mesentery; 0: no root */
 } SporeCurveFields;
 
 /* The use of a result, as a choice: names ended by NULL, and their meaning (N_). */

@@ -58,6 +58,16 @@ static const SporeParameter curve_parameters[] = {
      FIELD(SporeCurveFields, last_place),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Place in or on the organ where the line ends; the same as the first place: at the organ's end.")},
+    {.name = "root_degree",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     SPORE_CENTRELINE_ROOT_DEGREE,
+     .initial = {3},
+     FIELD(SporeCurveFields, root_degree),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How closely the root that is proposed for the mesentery of an intestine follows its loops: degree of "
+               "the curve, 1 straight; 0: no root, the mesentery draws the intestine to its place at rest.")},
     GENERATED(SporeCurveFields),
 };
 
@@ -80,12 +90,26 @@ static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
     uses, N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
              "its mesentery."));
 
+/* Whether the result becomes an intestine. */
+static gboolean is_bowel(const SporeGenerateWork *work) {
+  return work->options.purpose == SPORE_CENTRELINE_INTESTINE + 1;
+}
+
+/* The root is proposed whatever the use, which may change afterwards. Loops without a root have none. */
+static bool propose_root(SporeGenerateWork *work, SporeError *failure) {
+  size_t degree = (size_t)work->options.fields.curve.root_degree;
+  if (degree == 0) return true;
+  if (!spore_centreline_root(&work->curve, degree, &work->root, failure)) return failure->code != SPORE_ERROR_MEMORY;
+  return spore_centreline_root_measure(&work->curve, &work->root, &work->root_report, failure);
+}
+
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
   options.way = work->curve_way = g_try_new(double, work->mesh.vertex_count + 1);
   if (!options.way) spore_error_set(&failure, SPORE_ERROR_MEMORY, NULL, "%s", _("not enough memory"));
-  else if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
+  else if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure) &&
+           propose_root(work, &failure))
     return TRUE;
   spore_error_at(&failure, work->source);
   return spore_error_propagate(&failure, error);
@@ -94,7 +118,8 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
   const SporeGeneratedFrom from = spore_generate_work_from(work);
   const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
-                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART};
+                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART,
+                                            .root = is_bowel(work) && work->root.count ? &work->root : NULL};
   return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
 }
 
@@ -114,6 +139,12 @@ static char *facts(const SporeGenerateWork *work) {
     g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
                            100 * report->share);
   if (report->approach < 1) g_string_append(text, _("\nIts windings touch"));
+  if (!is_bowel(work)) return g_string_free(text, FALSE);
+  if (work->root.count)
+    g_string_append_printf(text, _("\nRoot %.0f mm long, mesentery %.0f mm (%.0f to %.0f)"),
+                           1e3 * work->root_report.length, 1e3 * work->root_report.mean,
+                           1e3 * work->root_report.shortest, 1e3 * work->root_report.longest);
+  else g_string_append(text, _("\nNo root: the mesentery draws it to its place at rest"));
   return g_string_free(text, FALSE);
 }
 

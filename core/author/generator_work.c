@@ -116,6 +116,7 @@ static void clear_work(gpointer data) {
   g_clear_pointer(&work->label_report.labels, g_array_unref);
   g_clear_pointer(&work->options.labels, spore_label_source_unref);
   spore_curve_clear(&work->curve);
+  spore_curve_clear(&work->root);
   g_free(work->curve_way);
   spore_triangle_mesh_clear(&work->surface);
   g_free(work->surface_distance);

@@ -65,6 +65,8 @@ struct SporeGenerateWork {
   SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */
   SporeCurve curve;                        /* out */
   SporeCentrelineReport curve_report;      /* out */
+  SporeCurve root;                         /* out: of the mesentery of an intestine along the curve; empty: none */
+  SporeCentrelineRoot root_report;         /* out, with root */
   double *curve_way;                       /* out: a vertex of the given mesh, to the line through the inside, m */
   SporeTriangleMesh surface;               /* out: with a wall, all around it */
   SporeSurfaceReport surface_report;       /* out; zero where it was not thinned */

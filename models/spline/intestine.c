@@ -2,7 +2,7 @@
  * intestine for surgery simulation"): an axis that moves, spheres along it that touch the world and each other, a skin
  * drawn around it. The axis is a hollow spline (models/spline/spline.h). The mesentery ties each of its control points
  * to its place at rest in the frame of a core (models/common/virtual_core.h), with the part of the line that the
- * control point stands for; or, where it has a root, to a place of that root (models/spline/mesentery.h): then it is a
+ * control point stands for; or, where it has a root, to a place of that root (core/mesh/mesentery.h): then it is a
  * sheet that holds the bowel, and folds where the bowel is nearer than at rest. A pin at the core holds it in the
  * belly. */
 #include <assert.h>
@@ -14,7 +14,7 @@
 #include "models/common/virtual_core.h"
 #include "models/registry.h"
 #include "models/spline/line.h"
-#include "models/spline/mesentery.h"
+#include "core/mesh/mesentery.h"
 
 typedef struct IntestineFields {
   int64_t control_points;

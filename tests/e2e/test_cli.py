@@ -1485,6 +1485,18 @@ def centreline_scenes():
         assert answer["monitor"]["recoveries"] == 0 and answer["monitor"]["frozen"] == [] and answer["spheres"] > 8
     assert 'control_points="12"' in (report("centreline", "tube.off", "--scene", "along/twelve.spore", "--control-points", 12)
                                     and (WORK / "along/twelve.spore").read_text())
+    answer = report("centreline", "tube.off", "--scene", "along/rooted.spore", "--as", "intestine", "--root",
+                    file("root.curve", "0 0.05 0 0.001\n0.08 0.05 0 0.001\n"))["root"]
+    assert answer["from"].endswith("root.curve") and abs(answer["length"] - 0.08) < 1e-9 and abs(answer["mesentery_mean"] - 0.05) < 5e-4
+    assert ' root="tube-root"' in (WORK / "along/rooted.spore").read_text()
+    assert report("run", "along/rooted.spore", "--time", 0.5)["monitor"]["unsolved"] == []
+    answer = report("centreline", "tube.off", "--scene", "along/proposed.spore", "--as", "intestine")["root"]
+    assert answer["from"] == "proposed" and answer["mesentery_max"] < 0.001  # a straight bowel is its own middle
+    answer = report("centreline", "tube.off", "--scene", "along/none.spore", "--as", "intestine", "--root-degree", 0)
+    assert "root" not in answer and " root=" not in (WORK / "along/none.spore").read_text()
+    refuses("centreline", "tube.off", "--scene", "along/no.spore", "--as", "tube", "--root", "root.curve", says=["--root", "intestine"])
+    refuses("centreline", "tube.off", "--scene", "along/no.spore", "--as", "intestine", "--root", "tube.off", says=["tube.off"])
+    refuses("centreline", "tube.off", "--scene", "along/no.spore", "--as", "intestine", "--root-degree", 8, says=["--root-degree"])
     refuses("centreline", "tube.off", "--scene", "along/no.spore", "--as", "tub", says=["--as", "tube"])
     refuses("centreline", "tube.off", "--as", "tube", says=["--scene"])
     refuses("centreline", "tube.off", "--scene", "along/no.spore", "--control-points", 3, says=["3", "4 to"])

@@ -114,6 +114,37 @@ static void test_middle_line(Fixture *fixture, gconstpointer data) {
   g_assert_cmpstr(spore_object_name(source), ==, "tube");
 }
 
+/* Assets of curves. */
+static guint count_curves(SporeDocument *document) {
+  SporeObject *assets = spore_document_section(document, "assets");
+  guint count = 0;
+  for (guint i = 0; i < spore_object_child_count(assets); i++)
+    count += g_str_equal(spore_object_type(spore_object_child(assets, i))->element, "curve");
+  return count;
+}
+
+/* An intestine hangs from a root that is proposed, made anew with the line; a degree of 0 leaves it out. */
+static void test_root(Fixture *fixture, gconstpointer data) {
+  g_autofree char *before = text_of(fixture);
+  SporeGenerateOptions options = spore_generate_options_of(fixture->document, fixture->body, SPORE_GENERATE_CURVE);
+  options.purpose = 1 + SPORE_CENTRELINE_INTESTINE;
+  apply(fixture, run(fixture, &options));
+  assert_one_step(fixture, before);
+  for (int degree = 2; degree >= 0; degree -= 2) {
+    SporeObject *root = spore_object_reference(spore_object_child_of(fixture->body, "mechanical"), "root");
+    g_assert_nonnull(root);
+    const SporeCurve *curve = spore_document_curve(fixture->document, root, NULL);
+    g_assert_cmpfloat_with_epsilon(spore_curve_length(curve), LENGTH, 0.01);
+    g_assert_cmpuint(count_curves(fixture->document), ==, 2);
+    options.fields.curve.root_degree = degree;
+    SporeGenerateWork *work = run(fixture, &options);
+    g_autofree char *facts = spore_generator_curve.facts(work);
+    g_assert_true((strstr(facts, "\nRoot") != NULL) == (degree > 0));
+    apply(fixture, work);
+  }
+  g_assert_null(spore_object_reference(spore_object_child_of(fixture->body, "mechanical"), "root"));
+}
+
 /* The pins of a body that stands elsewhere hold it there. */
 static void test_pins_follow_pose(Fixture *fixture, gconstpointer data) {
   spore_document_set_text(fixture->document, fixture->body, "position", "0 1 0", NULL);
@@ -307,6 +338,7 @@ int main(int argc, char **argv) {
   } tests[] = {
       {"kinds", test_kinds},
       {"middle-line", test_middle_line},
+      {"root", test_root},
       {"pins-follow-pose", test_pins_follow_pose},
       {"surface", test_surface},
       {"labels", test_labels},

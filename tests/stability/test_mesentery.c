@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "models/spline/mesentery.h"
+#include "core/mesh/mesentery.h"
 #include "tests/stability/rig.h"
 #include "tests/stability/statics.h"
 

@@ -191,15 +191,23 @@ static void measure_bend(const SporeGenerateWork *work, SporeQuality *quality) {
   }
 }
 
+static void draw(const SporeCurve *curve, double *lines) {
+  for (gsize i = 0; i + 1 < curve->count; i++) {
+    spore_vec3_store(lines + 6 * i, point(curve, i));
+    spore_vec3_store(lines + 6 * i + 3, point(curve, i + 1));
+  }
+}
+
+/* The line and, of an intestine, the root of its mesentery. */
 static void show_curve(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
   const SporeSphereSet balls = {.count = work->curve.count, .spheres = work->curve.points};
   show_spheres(&balls, places, candidate);
-  candidate->line_count = work->curve.count - 1;
+  gboolean rooted = work->options.purpose == SPORE_CENTRELINE_INTESTINE + 1 && work->root.count > 0;
+  gsize root_count = rooted ? work->root.count - 1 : 0;
+  candidate->line_count = work->curve.count - 1 + root_count;
   candidate->lines = g_new(double, 6 * candidate->line_count);
-  for (gsize i = 0; i < candidate->line_count; i++) {
-    spore_vec3_store(candidate->lines + 6 * i, point(&work->curve, i));
-    spore_vec3_store(candidate->lines + 6 * i + 3, point(&work->curve, i + 1));
-  }
+  draw(&work->curve, candidate->lines);
+  if (rooted) draw(&work->root, candidate->lines + 6 * (work->curve.count - 1));
 }
 
 /* What the line does not follow is far from it. */

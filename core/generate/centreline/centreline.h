@@ -57,4 +57,19 @@ bool spore_centreline_from_mesh(const SporeTriangleMesh *mesh, const SporeCentre
 bool spore_centreline_measure(const SporeTriangleMesh *mesh, SporeCurve *curve, SporeCentrelineReport *report,
                               SporeError *error);
 
+/* The root of a bowel's mesentery, where nobody says where it is: a polynomial of this degree (1 straight, at most
+ * SPORE_CENTRELINE_ROOT_DEGREE) in the length along the middle line, nearest to that line in the mean square; so it
+ * runs through the middle of the loops, from the bowel's beginning to its end. Its points have a fifth of the line's
+ * mean radius. Refused: loops around one place, which have no such middle. */
+#define SPORE_CENTRELINE_ROOT_DEGREE 7
+bool spore_centreline_root(const SporeCurve *line, size_t degree, SporeCurve *root, SporeError *error);
+
+/* A root and the mesentery between it and the line, as core/mesh/mesentery.h spreads it, m. */
+typedef struct SporeCentrelineRoot {
+  double length;                  /* of the root */
+  double shortest, mean, longest; /* of the mesentery, from the root to the line */
+} SporeCentrelineRoot;
+bool spore_centreline_root_measure(const SporeCurve *line, const SporeCurve *root, SporeCentrelineRoot *figures,
+                                   SporeError *error);
+
 #endif

@@ -1,6 +1,6 @@
 /* Where the mesentery of a bowel begins: a place of its root for each point of the bowel. */
-#ifndef SPORE_MODELS_SPLINE_MESENTERY_H
-#define SPORE_MODELS_SPLINE_MESENTERY_H
+#ifndef SPORE_MESH_MESENTERY_H
+#define SPORE_MESH_MESENTERY_H
 
 #include "core/mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 /* Spreads a mesentery from its root to a bowel. The least sum of squares among places in order is a shortest way,
  * found by dynamic programming (R. Bellman, "Dynamic Programming", 1957), point after point. */
-#include "models/spline/mesentery.h"
+#include "core/mesh/mesentery.h"
 
 #include <assert.h>
 #include <math.h>
