@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/author/addition.h"
 #include "core/author/edits.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
@@ -27,9 +28,15 @@ gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **er
                              setting);
   *slash = '\0';
   SporeObject *object = spore_edit_object_or_unit(document, path, NULL);
-  if (!object)
+  if (!object) {
+    g_autofree char *addition = spore_edit_addition_for(document, path);
+    if (addition)
+      return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
+                               _("the scene has no object '%s'; correct the name, or add it: spore edit --add '%s'"),
+                               path, addition);
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
                              _("the scene has no object '%s'; expected a path such as bodies/NAME/collision"), path);
+  }
   return spore_document_set_text(document, object, slash + 1, equals + 1, error);
 }
 

@@ -222,6 +222,10 @@ def a_scene_is_authored_by_commands():
     assert body.find("collision").get("stiffness") == "300" and len(tree.findall("assets/spheres/sphere_region")) == 1
     assert tree.find("links/pin").get("body") == "egg" and tree.find("tools/probe").get("body") == "probe"
     assert report("run", scene, "--steps", "20")["dof"] > 100
+    added = report("edit", scene, "--add", "links/spring:cord", "--add", "links/spring:cord", "--add", "bodies/egg/mechanical/rigid_body",
+                   "--set", "links/cord/body_a=egg", "--set", "links/cord-2/body_a=egg", "-o", scene.with_name("added.spore"))["changed"]
+    assert added == ["links/cord", "links/cord-2", "bodies/egg/mechanical/rigid_body", "links/cord/body_a", "links/cord-2/body_a"], added
+    assert report("run", scene.with_name("added.spore"), "--steps", "20")["dof"] <= 6, "a rigid body, pinned"
     assert not [d for d in report("check", scene)["diagnostics"] if d["severity"] == "error"]
 
 
@@ -244,6 +248,13 @@ def authoring_commands_refuse_what_they_cannot_do():
     refuses("edit", scene, "--hold", "none", says=('no body "none"',))
     refuses("edit", scene, "--hold", "ball", says=("needs no pin",))
     refuses("edit", scene, "--set", "bodies/ball/collision/stifness=3", says=("did you mean",))
+    for wrong, says in (("links/sprin:c", "did you mean spring?"), ("bodies/ball/mechanical/soft", "lennard_jones, "), ("cord", "links/spring:cord"),
+                        ("solver/x", "nothing can be added"), ("bodies/ball/collision", "by --set"), ("bodies/none/visual", "to add to"),
+                        ("bodies/ball/fidelity:x", 'without ":x"')):
+        refuses("edit", scene, "--add", wrong, says=(says,))
+    refuses("edit", scene, "--set", "links/cord/stiffness=3", says=("spore edit --add 'links/", "spring|", ":cord'"))
+    refuses("edit", scene, "--set", "bodies/ball/fidelity/coarse/settings=x", says=("spore edit --add 'bodies/ball/fidelity'",))
+    refuses("edit", scene, "--set", "nothing/at/all=3", says=("bodies/NAME/collision",))
     refuses("import", "ball.off", "--add", "-o", WORK / "authored" / "absent.spore", says=("absent.spore", "no such file"))
     assert scene.read_text() == before
 

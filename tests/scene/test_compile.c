@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/scene/compile.h"
+#include "core/scene/fidelity.h"
 #include "fixture.h"
 
 #define ASSETS                                                                                                         \
@@ -292,6 +293,33 @@ static gboolean apply(SporeSimulation *simulation, SporeDocument *document, cons
   return spore_simulation_apply(simulation, document, object, (guint)index);
 }
 
+/* An effect takes the place of physics while it runs, and gives it back; so do advice and its end. */
+static void test_apply_effect(void) {
+  g_autofree char *folder = fixture_scene_folder_new(everything);
+  g_free(fixture_write(folder, "hand.track", hand_track));
+  SporeDocument *document = fixture_load(folder);
+  SporeSimulation *simulation = compile(document, NULL);
+  guint32 stone = spore_world_find_body(simulation->world, "stone");
+  SporeObject *body = spore_document_by_path(document, "bodies/stone");
+  g_assert_true(spore_fidelity_advise(document, body, TRUE, NULL));
+  g_assert_true(apply(simulation, document, "bodies/stone/fidelity", "advice_hash"));
+  run(simulation, 1);
+  g_assert_true(spore_world_body_is_effect(simulation->world, stone));
+  set(document, "bodies/stone", "velocity", "0 0 1"); /* the advice was for another scene */
+  g_assert_true(apply(simulation, document, "bodies/stone/fidelity", "advice"));
+  run(simulation, 1);
+  g_assert_false(spore_world_body_is_effect(simulation->world, stone));
+  for (int on = 1; on >= 0; on--) {
+    set(document, "bodies/stone/fidelity", "mode", on ? "effect" : "physical");
+    g_assert_true(apply(simulation, document, "bodies/stone/fidelity", "mode"));
+    run(simulation, 1);
+    g_assert_true(spore_world_body_is_effect(simulation->world, stone) == on);
+  }
+  spore_simulation_free(simulation);
+  spore_document_free(document);
+  fixture_folder_free(g_steal_pointer(&folder));
+}
+
 static void test_apply(void) {
   g_autofree char *folder = fixture_scene_folder_new(everything);
   g_free(fixture_write(folder, "hand.track", hand_track));
@@ -457,6 +485,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/compile/no-input", test_no_input);
   g_test_add_func("/compile/empty", test_empty);
   g_test_add_func("/compile/apply", test_apply);
+  g_test_add_func("/compile/apply-effect", test_apply_effect);
   g_test_add_func("/compile/carry-over", test_carry_over);
   g_test_add_func("/compile/own-spheres", test_own_spheres);
   g_test_add_func("/compile/named-spheres", test_named_spheres);

@@ -1340,6 +1340,23 @@ def every_model_in_turn():
 
 
 @check
+def an_effect_takes_the_place_of_physics():
+    """while a ball falls, an effect takes its place and physics comes back: the run goes on, without a restart."""
+    with start(write_scene("effect", "<rigid_body/>")) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("select", "s", "bodies/ball")
+        editor.act("play")
+        for mode in ("effect", "physical"):
+            ui.wait(lambda: (editor.time_s() or 0) > 0.1, "the ball to fall")
+            times = [editor.time_s()]
+            editor.act("set-property", "(sss)", ("bodies/ball/fidelity", "mode", mode))
+            ui.wait(lambda: f'mode="{mode}"' in saved(editor, "switched"), "the mode to be set")
+            ui.wait(lambda: times.append(editor.time_s()) or times[-1] > times[0] + 0.1, "the run to go on")
+            assert min(times) == times[0], times
+        assert not editor.message(), editor.message()
+
+
+@check
 def sleep_lateness_and_trouble_are_shown():
     """what sleeps, steps that come late, and what a run had to mend are shown, the last among the problems of its body."""
     with start(write_scene("asleep", "<rigid_body/>")) as editor:

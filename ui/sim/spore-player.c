@@ -1,6 +1,8 @@
 /* The player: runs a compiled copy of the document, and keeps it in step with edits. */
 #include "ui/sim/spore-player.h"
 
+#include <string.h>
+
 struct _SporePlayer {
   GObject parent;
   SporeEditorDocument *document;
@@ -82,6 +84,11 @@ static gboolean is_at_rest(SporePlayer *self) {
   return !spore_session_is_playing(self->session) && spore_session_snapshot(self->session)->step == 0;
 }
 
+/* Whether a new object says nothing that the scene did not say without it: what is set in it follows. */
+static gboolean says_nothing(const SporeObject *object) {
+  return strcmp(spore_object_type(object)->element, "fidelity") == 0 && spore_object_child_count(object) == 0;
+}
+
 static void document_changed(SporePlayer *self, int kind, guint id, guint property) {
   if (!self->session) return;
   if (is_at_rest(self)) {
@@ -90,6 +97,8 @@ static void document_changed(SporePlayer *self, int kind, guint id, guint proper
   }
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *object = kind == SPORE_DOCUMENT_SET ? spore_document_by_id(document, id) : NULL;
+  const SporeObject *added = kind == SPORE_DOCUMENT_INSERTED ? spore_document_by_id(document, id) : NULL;
+  if (added && says_nothing(added)) return;
   if (object) {
     const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
     if (spore_simulation_apply((SporeSimulation *)spore_session_simulation(self->session), document, object, property))
