@@ -62,7 +62,6 @@ static gboolean make_line(SporeCli *cli, const SporeTriangleMesh *mesh, const ch
 static SporeCentrelineBodyOptions body_options(const Output *output, const Result *result) {
   return (SporeCentrelineBodyOptions){.body = (SporeCentrelineBody)output->kind,
                                       .control_points = (size_t)output->control_points,
-                                      .loops_apart = result->figures.approach > SPORE_CENTRELINE_APART,
                                       .root = result->root.count ? &result->root : NULL};
 }
 

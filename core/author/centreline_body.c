@@ -149,12 +149,11 @@ static gboolean insert_model(SporeDocument *document, SporeObject *body, SporeOb
                    set_number(document, model, "wall_thickness", WALL * radius, error));
 }
 
-static gboolean insert_units(SporeDocument *document, SporeObject *body, const SporeCentrelineBodyOptions *options,
-                             SporeObject *mesh, GError **error) {
+static gboolean insert_units(SporeDocument *document, SporeObject *body, SporeObject *mesh, GError **error) {
   SporeObject *collision = insert(document, body, "collision", NULL, error);
   if (!collision || !set_number(document, collision, "stiffness", 400, error) ||
       !set_number(document, collision, "damping", 0.3, error) ||
-      (options->loops_apart && !spore_document_set_text(document, collision, "self", "true", error)))
+      !spore_document_set_text(document, collision, "self", "true", error))
     return FALSE;
   SporeObject *visual = spore_object_child_of(body, "visual");
   if (!visual) visual = insert(document, body, "visual", NULL, error);
@@ -209,7 +208,7 @@ gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, 
                                     const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
                                     SporeObject *mesh, GError **error) {
   return empty(document, body, error) && insert_model(document, body, line, curve, options, error) &&
-         insert_units(document, body, options, mesh, error) && hold(document, body, curve, options->body, error);
+         insert_units(document, body, mesh, error) && hold(document, body, curve, options->body, error);
 }
 
 SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *name, const SporeCurve *curve,

@@ -12,12 +12,9 @@ typedef enum SporeCentrelineBody {
 } SporeCentrelineBody;
 extern const char *const spore_centreline_body_names[]; /* "thread", ...; ends with NULL */
 
-#define SPORE_CENTRELINE_APART                                                                                         \
-  1.0 /* distance of two loops over the sum of their radii: from this value on the loops are apart */
 typedef struct SporeCentrelineBodyOptions {
   SporeCentrelineBody body;
   size_t control_points;  /* 0: chosen by the line's length, thickness and bends */
-  bool loops_apart;       /* no two loops touch at rest: the body may touch itself */
   const SporeCurve *root; /* of an intestine's mesentery; NULL: none, it draws the intestine to its place at rest */
 } SporeCentrelineBodyOptions;
 

@@ -118,7 +118,6 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
   const SporeGeneratedFrom from = spore_generate_work_from(work);
   const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
-                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART,
                                             .root = is_bowel(work) && work->root.count ? &work->root : NULL};
   return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
 }

@@ -3,11 +3,11 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/body/path.h"
+#include "core/collide/near_pairs.h"
 
 #define SAMPLES 8       /* places a span that a sphere's place on the line is sought from */
 #define SKIN 1.0        /* of the mean radius */
@@ -17,7 +17,6 @@
 static void clear_body(SporeLoopsBody *body) {
   spore_free(body->along);
   spore_free(body->listed);
-  spore_free(body->order);
   spore_free(body->pairs);
   *body = (SporeLoopsBody){0};
 }
@@ -80,56 +79,34 @@ static bool place_spheres(SporeLoopsBody *body, const SporeWorld *world, const S
 
 /* The list of pairs. */
 
-/* A sphere to be sorted by x; equal places by number. */
-typedef struct Sorted {
-  double x;
-  uint32_t sphere;
-} Sorted;
-
-static int by_place(const void *a, const void *b) {
-  const Sorted *one = a, *other = b;
-  if (one->x != other->x) return one->x < other->x ? -1 : 1;
-  return one->sphere < other->sphere ? -1 : one->sphere > other->sphere;
-}
-
-static bool sort_spheres(SporeLoopsBody *body, const double *centre) {
-  Sorted *sorted = SPORE_NEW_ARRAY(Sorted, body->count);
-  if (!sorted) return false;
-  for (size_t i = 0; i < body->count; i++) sorted[i] = (Sorted){centre[3 * i], (uint32_t)i};
-  qsort(sorted, body->count, sizeof *sorted, by_place);
-  for (size_t i = 0; i < body->count; i++) body->order[i] = sorted[i].sphere;
-  spore_free(sorted);
-  return true;
-}
-
 static bool add_pair(SporeLoopsBody *body, uint32_t a, uint32_t b) {
   SporeLoopsPair *pairs =
       spore_room_for_one(body->pairs, body->pair_count, &body->pair_capacity, FIRST_PAIRS, sizeof *pairs);
   if (!pairs) return false;
   body->pairs = pairs;
-  body->pairs[body->pair_count++] = a < b ? (SporeLoopsPair){a, b} : (SporeLoopsPair){b, a};
+  body->pairs[body->pair_count++] = (SporeLoopsPair){a, b};
   return true;
 }
 
-/* Adds the pair where the spheres are of different windings and near enough. */
-static bool weigh_pair(SporeLoopsBody *body, const double *centre, const double *radius, uint32_t a, uint32_t b) {
-  double sum = radius[a] + radius[b], reach = sum + body->skin;
-  if (!(fabs(body->along[a] - body->along[b]) > (1 + ROUNDING) * sum)) return true;
-  SporeVec3 away = spore_vec3_sub(spore_vec3_load(centre + 3 * a), spore_vec3_load(centre + 3 * b));
-  return !(spore_vec3_dot(away, away) < reach * reach) || add_pair(body, a, b);
+/* A search for the pairs of a body. */
+typedef struct Search {
+  SporeLoopsBody *body;
+  const double *radius;
+} Search;
+
+/* Adds the pair where the spheres are of different windings. */
+static bool weigh_pair(void *data, uint32_t a, uint32_t b) {
+  const Search *search = data;
+  SporeLoopsBody *body = search->body;
+  double sum = search->radius[a] + search->radius[b];
+  return !(fabs(body->along[a] - body->along[b]) > (1 + ROUNDING) * sum) || add_pair(body, a, b);
 }
 
 static bool list_pairs(SporeLoopsBody *body, const double *centre, const double *radius) {
+  Search search = {body, radius};
   body->pair_count = 0;
   memcpy(body->listed, centre, 3 * body->count * sizeof *centre);
-  if (!sort_spheres(body, centre)) return false;
-  for (size_t i = 0; i < body->count; i++) {
-    uint32_t a = body->order[i];
-    double farthest = centre[3 * a] + radius[a] + body->widest + body->skin;
-    for (size_t j = i + 1; j < body->count && centre[3 * body->order[j]] < farthest; j++)
-      if (!weigh_pair(body, centre, radius, a, body->order[j])) return false;
-  }
-  return true;
+  return spore_near_pairs(centre, radius, body->count, 1, body->skin, weigh_pair, &search);
 }
 
 /* Whether a sphere has gone so far that a pair may be near that is not listed. */
@@ -178,15 +155,10 @@ static bool make_body(SporeLoopsBody *body, const SporeWorld *world, uint32_t in
   const SporeSpheres *spheres = spore_world_spheres(world);
   *body = (SporeLoopsBody){.body = index, .least = 1, .count = spore_world_body_sphere_count(world, index)};
   while (spheres->body[body->start] != index) body->start++;
-  for (size_t i = 0; i < body->count; i++) {
-    double radius = spheres->radius[body->start + i];
-    body->skin += SKIN / (double)body->count * radius;
-    body->widest = fmax(body->widest, radius);
-  }
+  for (size_t i = 0; i < body->count; i++) body->skin += SKIN / (double)body->count * spheres->radius[body->start + i];
   body->along = SPORE_NEW_ARRAY(double, body->count);
   body->listed = SPORE_NEW_ARRAY(double, 3 * body->count);
-  body->order = SPORE_NEW_ARRAY(uint32_t, body->count);
-  return body->along && body->listed && body->order && place_spheres(body, world, spheres) &&
+  return body->along && body->listed && place_spheres(body, world, spheres) &&
          list_pairs(body, spheres->centre + 3 * body->start, spheres->radius + body->start);
 }
 

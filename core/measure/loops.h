@@ -27,10 +27,9 @@ typedef struct SporeLoopsBody {
   bool from_start;  /* the first of them did */
   /* Private. */
   size_t start, count; /* spheres, among all of the world */
-  double skin, widest; /* m: how much farther the list looks; the largest radius */
+  double skin;         /* m: how much farther the list looks */
   double *along;       /* count: place on the line at the start, m */
   double *listed;      /* count x 3: centres when the pairs were listed */
-  uint32_t *order;     /* count: spheres by x when they were listed */
   size_t pair_count, pair_capacity;
   SporeLoopsPair *pairs;
 } SporeLoopsBody;

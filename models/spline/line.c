@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/collide/grid.h"
+#include "core/collide/near_pairs.h"
 #include "core/base/text.h"
 
 #define SAMPLES 16 /* a span, of the walk along the line that spaces spheres */
@@ -169,6 +171,64 @@ static void set_sphere(const SporeSplineLine *line, double u, double *sphere) {
   sphere[3] = spore_spline_radius(&line->course, line->knots, u);
 }
 
+/* Loops that lie against each other. A body may ask that its spheres meet each other; those that touch at rest never
+ * do (SPORE_GRID_SELF_MARGIN), so that neighbours along a line do not push each other. So spheres of different loops
+ * are made so much smaller that they do not touch. Loops that lie deep in each other are left alone: their curve is
+ * wrong, and a run says so (core/measure/loops.h). */
+
+#define DEEP 0.5 /* of a sum of radii: loops that are nearer lie in each other, and stay so */
+#define LOOP 2.0 /* sums of radii: spheres that are farther apart along the line are of different loops */
+#define APART (1 + SPORE_GRID_SELF_MARGIN + 1e-6)
+
+/* What is known of the spheres while loops are parted. */
+typedef struct Parting {
+  const double *centre, *radius, *along; /* m */
+  double *scale;                         /* of the radius; above 1: the sphere is deep in another */
+} Parting;
+
+/* Distance of two spheres of different loops over the sum of their radii; HUGE_VAL: they are of one loop. */
+static double apart(const Parting *parting, uint32_t a, uint32_t b) {
+  double sum = parting->radius[a] + parting->radius[b];
+  if (fabs(parting->along[a] - parting->along[b]) <= LOOP * sum) return HUGE_VAL;
+  SporeVec3 p = spore_vec3_load(parting->centre + 3 * a), q = spore_vec3_load(parting->centre + 3 * b);
+  return spore_vec3_distance(p, q) / sum;
+}
+
+static bool mark_deep(void *data, uint32_t a, uint32_t b) {
+  const Parting *parting = data;
+  if (apart(parting, a, b) < DEEP) parting->scale[a] = parting->scale[b] = 2;
+  return true;
+}
+
+static bool part_pair(void *data, uint32_t a, uint32_t b) {
+  const Parting *parting = data;
+  double scale = apart(parting, a, b) / APART;
+  if (parting->scale[a] > 1 || parting->scale[b] > 1) return true;
+  parting->scale[a] = fmin(parting->scale[a], scale);
+  parting->scale[b] = fmin(parting->scale[b], scale);
+  return true;
+}
+
+static bool part_loops(SporeSphereSet *set) {
+  size_t count = set->count;
+  double *room = SPORE_NEW_ARRAY(double, 6 * count), *centre = room, *radius, *along, *scale;
+  if (!room) return false;
+  radius = room + 3 * count, along = radius + count, scale = along + count;
+  for (size_t i = 0; i < count; i++) {
+    SporeVec3 p = spore_vec3_load(set->spheres + 4 * i);
+    spore_vec3_store(centre + 3 * i, p);
+    radius[i] = set->spheres[4 * i + 3];
+    scale[i] = 1;
+    along[i] = i > 0 ? along[i - 1] + spore_vec3_distance(p, spore_vec3_load(centre + 3 * (i - 1))) : 0;
+  }
+  Parting parting = {centre, radius, along, scale};
+  bool parted = spore_near_pairs(centre, radius, count, DEEP, 0, mark_deep, &parting) &&
+                spore_near_pairs(centre, radius, count, APART, 0, part_pair, &parting);
+  for (size_t i = 0; i < count; i++) set->spheres[4 * i + 3] *= fmin(scale[i], 1);
+  spore_free(room);
+  return parted;
+}
+
 /* From end to end, as far apart as each is thick: smooth to what slides over them. */
 static bool set_spheres(SporeSplineLine *line, SporeError *error) {
   double end = spore_spline_end(line->knots);
@@ -186,7 +246,7 @@ static bool set_spheres(SporeSplineLine *line, SporeError *error) {
     walked += step;
   }
   for (; next <= gaps; next++) set_sphere(line, end, line->spheres.spheres + 4 * next);
-  return true;
+  return part_loops(&line->spheres) || no_memory(error);
 }
 
 /* By how much a span turns, rad. */

@@ -40,7 +40,8 @@ typedef struct SporeSplineLine {
   double *radius;             /* at SPORE_LINE_SAMPLES places a span and at the end, m */
   double *mass, *length;      /* of each control point: integrals of its function, kg and m */
   SporeSplineWeight *weights; /* of each span; NULL: another line has them */
-  SporeSphereSet spheres;     /* along the line, each a radius from the next */
+  SporeSphereSet spheres;     /* along the line, each a radius from the next; smaller where loops
+                                 touch at rest */
   SporeSpline spline;         /* young, bending and viscous are the model's to set; its blocks are not looked up yet */
 } SporeSplineLine;
 
