@@ -4,6 +4,7 @@
 #include "app/cli/generate.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "app/cli/tetrahedra_list.h"
+#include "app/cli/tetrahedra_surroundings.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/io/mesh_import.h"
@@ -111,53 +112,89 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
                                                                            : spore_cli_fail(error);
 }
 
-/* Meshes the labels chosen of a map; its file states the unit and the axes. */
-static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
-                           const GArray *labels, const SporeLabelSurvey *survey, const char *output) {
+/* What is asked of a label map. */
+typedef struct LabelWish {
+  char *labels; /* by number or name; NULL: all */
+  gboolean list, surroundings;
+} LabelWish;
+
+/* A label map and what is made of it. */
+typedef struct LabelWork {
+  const char *file, *output;
+  GBytes *content;
+  const SporeLabelSurvey *survey;
+  const GArray *chosen; /* of guint16; empty: all */
+  gboolean surroundings;
   SporeTetrahedraFields fields;
-  spore_parameters_set_initial(&options->table, &fields);
-  spore_cli_options_fill(options, &fields);
-  GError *error = NULL;
-  SporeTetrahedralMesh mesh = {0};
-  SporeLabelTetrahedraReport figures = {0};
-  gboolean done = spore_cli_label_tetrahedra(cli, file, content, labels, &fields, &mesh, &figures, &error);
+  SporeLabelMap map;
+  SporeTetrahedralMesh mesh;
+  SporeLabelTetrahedraReport figures;
+} LabelWork;
+
+static gboolean save_scene(SporeCli *cli, const LabelWork *work, GError **error) {
+  const SporeLabelBodies organs = {.file = work->file,
+                                   .content =
+                                       g_bytes_get_size(work->content) <= SPORE_LABEL_MAP_KEPT ? work->content : NULL,
+                                   .fields = &work->fields,
+                                   .mesh = &work->mesh,
+                                   .use = SPORE_LABELS_LINKED};
+  g_autoptr(GArray) rest = NULL;
+  if (work->surroundings) rest = spore_cli_surroundings(cli, &work->map, work->survey, work->chosen, error);
+  if (work->surroundings && !rest) return FALSE;
+  if (rest) spore_cli_report_surroundings(cli, rest, work->survey);
+  return spore_cli_save_labels(cli, work->output, &organs, &work->figures, work->survey, rest, error);
+}
+
+static gboolean write_cells(const LabelWork *work, GError **error) {
   gsize size = 0;
-  if (done) spore_cli_report_labels(cli, &mesh, &figures, survey);
-  if (done && output && spore_cli_is_scene(output)) {
-    const SporeLabelBodies organs = {.file = file,
-                                     .content = g_bytes_get_size(content) <= SPORE_LABEL_MAP_KEPT ? content : NULL,
-                                     .fields = &fields,
-                                     .mesh = &mesh,
-                                     .use = SPORE_LABELS_LINKED};
-    done = spore_cli_save_labels(cli, output, &organs, &figures, survey, &error);
-  } else if (done && output) {
-    g_autofree char *text = formatter_of(output)(&mesh, &size);
-    done = spore_write_file(output, text, size, &error);
-  }
-  g_clear_pointer(&figures.labels, g_array_unref);
-  spore_tetrahedral_mesh_clear(&mesh);
-  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  g_autofree char *text = formatter_of(work->output)(&work->mesh, &size);
+  return spore_write_file(work->output, text, size, error);
+}
+
+/* Meshes the labels chosen of a map; its file states the unit and the axes. */
+static gboolean generate_labels(SporeCli *cli, LabelWork *work, GError **error) {
+  gsize size;
+  const void *bytes = g_bytes_get_data(work->content, &size);
+  if (!spore_label_map_decode(work->file, bytes, size, &work->map, spore_cli_progress(cli), error) ||
+      !spore_cli_label_tetrahedra(cli, work->file, &work->map, work->chosen, &work->fields, &work->mesh, &work->figures,
+                                  error))
+    return FALSE;
+  spore_cli_report_labels(cli, &work->mesh, &work->figures, work->survey);
+  if (!work->output) return TRUE;
+  return spore_cli_is_scene(work->output) ? save_scene(cli, work, error) : write_cells(work, error);
 }
 
 /* Lists the labels of a map, or meshes them. */
 static int use_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
-                      const char *labels, gboolean list, const char *output) {
+                      const LabelWish *wish, const char *output) {
   GError *error = NULL;
   g_autoptr(SporeLabelSurvey) survey = spore_label_survey(file, content, spore_cli_progress(cli), &error);
   if (!survey) return spore_cli_fail(error);
-  if (list) {
+  if (wish->list) {
     spore_cli_report_list(cli, survey);
     return spore_cli_finish(cli, SPORE_EXIT_DONE);
   }
-  g_autoptr(GArray) chosen =
-      labels ? spore_label_survey_choose(survey, labels, &error) : g_array_new(FALSE, FALSE, sizeof(guint16));
+  g_autoptr(GArray) chosen = wish->labels ? spore_label_survey_choose(survey, wish->labels, &error)
+                                          : g_array_new(FALSE, FALSE, sizeof(guint16));
   if (!chosen) return spore_cli_fail(error);
-  return generate_labels(cli, file, content, options, chosen, survey, output);
+  LabelWork work = {.file = file,
+                    .output = output,
+                    .content = content,
+                    .survey = survey,
+                    .chosen = chosen,
+                    .surroundings = wish->surroundings};
+  spore_parameters_set_initial(&options->table, &work.fields);
+  spore_cli_options_fill(options, &work.fields);
+  gboolean done = generate_labels(cli, &work, &error);
+  spore_label_map_clear(&work.map);
+  g_clear_pointer(&work.figures.labels, g_array_unref);
+  spore_tetrahedral_mesh_clear(&work.mesh);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* Meshes a surface or a label map, whichever the file holds. */
 static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
-                        const char *frame, const char *labels, gboolean list, const char *output) {
+                        const char *frame, const LabelWish *wish, const char *output) {
   GError *error = NULL;
   if (output && !(spore_cli_is_scene(output) ? spore_cli_has_room_for_scene : spore_cli_has_room)(output, file, &error))
     return spore_cli_fail(error);
@@ -173,20 +210,25 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
   g_autofree char *foreign = is_map ? spore_cli_options_foreign(options, &spore_generator_labels) : NULL;
   if (foreign)
     return spore_cli_usage(_("spore tetrahedra: %s is for surfaces; %s is a label map; leave it out"), foreign, file);
-  if (is_map) return use_labels(cli, file, content, options, labels, list, output);
-  if (list) return spore_cli_usage(_("spore tetrahedra: --list is for label maps; %s is none; leave it out"), file);
+  if (is_map) return use_labels(cli, file, content, options, wish, output);
+  if (wish->list)
+    return spore_cli_usage(_("spore tetrahedra: --list is for label maps; %s is none; leave it out"), file);
   if (output && spore_cli_is_scene(output))
     return spore_cli_usage(_("-o %s: a scene is made of a label map, and %s is a surface; expected a name ending in "
                              ".vtu, .msh or .mesh; or make a scene by spore import, and give it --body"),
                            output, file);
-  if (labels) return spore_cli_usage(_("spore tetrahedra: --labels is for label maps; %s is none; leave it out"), file);
+  if (wish->labels)
+    return spore_cli_usage(_("spore tetrahedra: --labels is for label maps; %s is none; leave it out"), file);
   return generate(cli, file, options, unit, frame, output);
 }
 
 /* Checks the options and prints its own message. scene: the asset holds the values that are not given. */
-static int check(const SporeCliOptions *options, const char *output, gboolean scene, gboolean list) {
-  if (list && output) return spore_cli_usage(_("spore tetrahedra: --list writes no file; leave out -o"));
-  if (!scene && !list && spore_cli_options_way(options) < 0)
+static int check(const SporeCliOptions *options, const char *output, gboolean scene, const LabelWish *wish) {
+  if (wish->list && output) return spore_cli_usage(_("spore tetrahedra: --list writes no file; leave out -o"));
+  if (wish->surroundings && (!wish->labels || !output || !spore_cli_is_scene(output)))
+    return spore_cli_usage(_("spore tetrahedra: --surroundings adds the labels that --labels leaves out to a scene; "
+                             "expected both --labels and -o F.spore; give them"));
+  if (!scene && !wish->list && spore_cli_options_way(options) < 0)
     return spore_cli_usage(
         _("spore tetrahedra: neither number of cells nor size is given; expected either --cells 1 to "
           "%u or --size in metres above 0; give one of them"),
@@ -223,8 +265,11 @@ static const SporeReportMember members[] = {
     {"shared_faces", N_("of a label map: between two organs")},
     {"labels",
      N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
-        "min_dihedral_deg; with --list: label, name, named (file, sidecar, guessed), voxels, volume_m3, size_m "
+        "min_dihedral_deg, cut; with --list: label, name, named (file, sidecar, guessed), voxels, volume_m3, size_m "
         "(along the map's axes), cut (sides of the volume that it reaches: i- i+ j- j+ k- k+)")},
+    {"surroundings",
+     N_("of a label map, with --surroundings, of each: label, name, triangles, triangles_before (before they were made "
+        "fewer), off_voxels (largest distance found from the faces of its voxels), cut")},
     {"seams", N_("of a label map, with -o F.spore: between bodies that share faces")},
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};
@@ -236,7 +281,7 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
   if (scene && others)
     return spore_cli_usage(
         _("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
-          "none of --unit, --frame, --labels, --list and --output with it; leave them out, or give the "
+          "none of --unit, --frame, --labels, --list, --surroundings and --output with it; leave them out, or give the "
           "mesh's file"));
   return SPORE_EXIT_DONE;
 }
@@ -250,18 +295,22 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
                                         1,
                                         1,
                                         members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *labels = NULL, *body = NULL;
-  gboolean list = FALSE;
+  char *unit = NULL, *frame = NULL, *output = NULL, *body = NULL;
+  LabelWish wish = {0};
   const GOptionEntry entries[] = {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
-      {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels,
+      {"labels", 'l', 0, G_OPTION_ARG_STRING, &wish.labels,
        N_("Labels wanted of a label map, by number or name (default: all above 0)"), "1,liver,5"},
-      {"list", 0, 0, G_OPTION_ARG_NONE, &list,
+      {"list", 0, 0, G_OPTION_ARG_NONE, &wish.list,
        N_("List the labels of a label map, and mesh nothing: name (in the file's own table, or in a file of its name "
           "beside it: .json, .txt, .ctbl, .label; else guessed by its number), volume, size, and whether the edge of "
           "the "
           "volume may cut it"),
+       NULL},
+      {"surroundings", 0, 0, G_OPTION_ARG_NONE, &wish.surroundings,
+       N_("With --labels and -o F.spore: add the other labels as unmovable surfaces of few triangles, within half a "
+          "voxel of their voxels"),
        NULL},
       SPORE_SCENE_BODY_ENTRY(&body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
@@ -275,15 +324,16 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
       spore_cli_options_parse(&options, cli, &spore_generator_tetrahedra,
                               "n=cells s=size t=tolerance c=curvature m=method g=gap", &info, entries, &argc, &argv);
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
-  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || labels || list || output);
-  if (status == SPORE_EXIT_DONE) status = check(&options, output, scene, list);
+  if (status == SPORE_EXIT_DONE)
+    status = check_scene(scene, body, unit || frame || wish.labels || wish.list || wish.surroundings || output);
+  if (status == SPORE_EXIT_DONE) status = check(&options, output, scene, &wish);
   if (status == SPORE_EXIT_DONE)
     status = scene ? generate_in(cli, argv[1], body, &options)
-                   : generate_any(cli, argv[1], &options, unit, frame, labels, list, output);
+                   : generate_any(cli, argv[1], &options, unit, frame, &wish, output);
   g_free(body);
   g_free(unit);
   g_free(frame);
   g_free(output);
-  g_free(labels);
+  g_free(wish.labels);
   return status;
 }

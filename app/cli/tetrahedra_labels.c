@@ -4,27 +4,28 @@
 #include <glib/gi18n.h>
 
 #include "app/cli/scene.h"
+#include "app/cli/tetrahedra_list.h"
+#include "core/author/label_surroundings.h"
 #include "core/io/scene_xml.h"
 
-gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const GArray *labels,
+gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, const SporeLabelMap *map, const GArray *labels,
                                     const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
                                     SporeLabelTetrahedraReport *report, GError **error) {
-  SporeLabelMap map = {0};
-  gsize bytes_size;
-  const void *bytes = g_bytes_get_data(content, &bytes_size);
-  if (!spore_label_map_decode(file, bytes, bytes_size, &map, spore_cli_progress(cli), error)) return FALSE;
   SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
                                          .size = fields->size,
                                          .labels = (const uint16_t *)(const void *)labels->data,
                                          .label_count = labels->len};
-  gboolean done = spore_label_tetrahedra(file, &map, &options, mesh, report, spore_cli_progress(cli), error);
-  spore_label_map_clear(&map);
-  return done;
+  return spore_label_tetrahedra(file, map, &options, mesh, report, spore_cli_progress(cli), error);
 }
 
-static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *organs, GError **error) {
+static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *organs, const GArray *surroundings,
+                     GError **error) {
   SporeDocument *document = spore_cli_new_scene(cli, output);
-  gboolean done = spore_edit_use_labels(document, organs, error) && spore_cli_save_scene(document, output, error);
+  gboolean done =
+      spore_edit_use_labels(document, organs, error) &&
+      (!surroundings || spore_edit_add_surroundings(document, (SporeLabelSurrounding *)(void *)surroundings->data,
+                                                    surroundings->len, spore_cli_progress(cli), error)) &&
+      spore_cli_save_scene(document, output, error);
   guint seams = spore_object_child_count(spore_document_section(document, "links"));
   spore_document_free(document);
   if (!done) return FALSE;
@@ -36,7 +37,7 @@ static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *
 
 gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs,
                                const SporeLabelTetrahedraReport *report, const SporeLabelSurvey *survey,
-                               GError **error) {
+                               const GArray *surroundings, GError **error) {
   g_autoptr(GPtrArray) called = g_ptr_array_new();
   g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32)),
                     guessed = g_array_new(FALSE, FALSE, sizeof(gboolean));
@@ -55,7 +56,7 @@ gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLab
   bodies.names = (char *const *)called->pdata;
   bodies.guessed = (const gboolean *)(const void *)guessed->data;
   bodies.count = labels->len;
-  return save(cli, output, &bodies, error);
+  return save(cli, output, &bodies, surroundings, error);
 }
 
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
@@ -78,7 +79,8 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
     double change = figures->volume / figures->voxel_volume - 1;
     spore_cli_open(cli, NULL);
-    const char *name = spore_label_survey_entry(survey, figures->label)->name;
+    const SporeLabelEntry *entry = spore_label_survey_entry(survey, figures->label);
+    const char *name = entry->name;
     spore_cli_count(cli, "label", figures->label);
     spore_cli_text(cli, "name", name);
     spore_cli_count(cli, "cells", (gint64)figures->cells);
@@ -86,11 +88,14 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     spore_cli_number(cli, "voxel_volume_m3", figures->voxel_volume);
     spore_cli_number(cli, "volume_change", change);
     spore_cli_number(cli, "min_dihedral_deg", figures->min_dihedral_deg);
+    spore_cli_report_sides(cli, entry);
     spore_cli_close(cli);
     if (figures->cells)
-      spore_cli_say(cli, _("  %s: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees\n"), name,
+      spore_cli_say(cli, _("  %s: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees"), name,
                     figures->cells, 1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
-    else spore_cli_say(cli, _("  %s: finer than the cells, it has none; ask for more or smaller cells\n"), name);
+    else spore_cli_say(cli, _("  %s: finer than the cells, it has none; ask for more or smaller cells"), name);
+    spore_cli_say_sides(cli, entry);
+    spore_cli_say(cli, "\n");
   }
   spore_cli_close_array(cli);
 }

@@ -14,6 +14,18 @@ static char *sides_of(const SporeLabelEntry *entry) {
   return g_string_free(g_steal_pointer(&text), FALSE);
 }
 
+void spore_cli_report_sides(SporeCli *cli, const SporeLabelEntry *entry) {
+  spore_cli_open_array(cli, "cut");
+  for (int side = 0; side < 6; side++)
+    if (entry->cut[side / 2][side % 2]) spore_cli_text(cli, NULL, sides[side / 2][side % 2]);
+  spore_cli_close_array(cli);
+}
+
+void spore_cli_say_sides(const SporeCli *cli, const SporeLabelEntry *entry) {
+  g_autofree char *reached = sides_of(entry);
+  if (*reached) spore_cli_say(cli, _("  reaches the edge of the volume, which may cut it (%s)"), reached);
+}
+
 static void report_entry(SporeCli *cli, const SporeLabelEntry *entry) {
   spore_cli_open(cli, NULL);
   spore_cli_count(cli, "label", entry->label);
@@ -24,20 +36,16 @@ static void report_entry(SporeCli *cli, const SporeLabelEntry *entry) {
   spore_cli_open_array(cli, "size_m");
   for (int k = 0; k < 3; k++) spore_cli_number(cli, NULL, entry->size[k]);
   spore_cli_close_array(cli);
-  spore_cli_open_array(cli, "cut");
-  for (int side = 0; side < 6; side++)
-    if (entry->cut[side / 2][side % 2]) spore_cli_text(cli, NULL, sides[side / 2][side % 2]);
-  spore_cli_close_array(cli);
+  spore_cli_report_sides(cli, entry);
   spore_cli_close(cli);
 }
 
 static void say_entry(const SporeCli *cli, const SporeLabelEntry *entry) {
-  g_autofree char *size = g_strdup_printf("%.3g x %.3g x %.3g", 100 * entry->size[0], 100 * entry->size[1],
-                                          100 * entry->size[2]),
-                  *reached = sides_of(entry);
+  g_autofree char *size =
+      g_strdup_printf("%.3g x %.3g x %.3g", 100 * entry->size[0], 100 * entry->size[1], 100 * entry->size[2]);
   spore_cli_say(cli, "%5u  %-28s %10.4g  %-20s", entry->label, entry->name, 1e6 * entry->volume, size);
   if (entry->naming == SPORE_LABEL_GUESSED) spore_cli_say(cli, _("  guessed"));
-  if (*reached) spore_cli_say(cli, _("  reaches the edge of the volume, which may cut it (%s)"), reached);
+  spore_cli_say_sides(cli, entry);
   spore_cli_say(cli, "\n");
 }
 

@@ -39,6 +39,9 @@ bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimp
 typedef struct SporeSurfaceLimit {
   const SporeBvh *bvh;
   double depth, most, spacing;
+  double (*off)(void *data, SporeVec3 place); /* where there is one, it says how far off a place is, and there is no
+                                                 other surface */
+  void *data;
 } SporeSurfaceLimit;
 /* The same of a closed surface with as few vertices as the limit allows: *mesh is replaced. Nothing that goes through
  * nothing goes through something then. False: no memory, or cancelled; *mesh is as it was. */

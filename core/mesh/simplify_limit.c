@@ -19,6 +19,7 @@ static double off_at(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[
   SporeVec3 place = {0, 0, 0};
   double above = HUGE_VAL, mean = 0, spread = 0, least = 0;
   for (int k = 0; k < 3; k++) place = spore_vec3_add_scaled(place, weight[k], corner[k].place);
+  if (limit->off) return limit->off(limit->data, place);
   for (int k = 0; k < 3; k++) {
     double gap = spore_vec3_distance(place, corner[k].nearest), apart = spore_vec3_distance(place, corner[k].place);
     if (gap < above) above = gap, beside = corner + k;
@@ -48,11 +49,16 @@ static double off_triangle(const SporeSurfaceLimit *limit, const SporeBvhKnown c
   return far;
 }
 
+static SporeBvhKnown know(const SporeSurfaceLimit *limit, SporeVec3 place, const SporeBvhKnown *beside) {
+  if (!limit->off) return spore_bvh_depth_beside(limit->bvh, place, beside);
+  return (SporeBvhKnown){.place = place, .depth = limit->depth - limit->off(limit->data, place)};
+}
+
 static const SporeBvhKnown *look(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex,
                                  const SporeBvhKnown *beside) {
   SporeBvhKnown *known = &work->vertex[vertex];
   SporeVec3 place = in_metres(shell, spore_shell_at(shell, vertex));
-  if (known->depth == 0) *known = spore_bvh_depth_beside(work->limit->bvh, place, beside);
+  if (known->depth == 0) *known = know(work->limit, place, beside);
   return known;
 }
 
@@ -97,7 +103,7 @@ static double off_now(const SporeShellLimit *work, const SporeShell *shell, uint
 
 bool spore_shell_limit_allows(SporeShellLimit *work, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x) {
   const SporeBvhKnown *here = look(work, shell, a, &work->last);
-  work->last = spore_bvh_depth_beside(work->limit->bvh, in_metres(shell, x), here);
+  work->last = know(work->limit, in_metres(shell, x), here);
   double most = work->limit->most, far = off_collapsed(work, shell, a, b, &work->last, most);
   if (far <= most) return true;
   double now = fmax(off_now(work, shell, a), off_now(work, shell, b));

@@ -540,6 +540,32 @@ def names_of_labels_are_guessed_where_a_common_set_holds_them_all():
 
 
 @check
+def surroundings_of_chosen_labels_are_unmovable_surfaces():
+    """Thin and within half a voxel, what the edge of the volume may cut told, in a scene that is drawn as it is."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without label maps")
+    size = (28, 26, 24)
+    ball = lambda i, j, k, x, r: (i - x) ** 2 + (j - 13) ** 2 + (k - 12) ** 2 < r * r
+    at = lambda i, j, k: 1 if i < 13 and ball(i, j, k, 9, 7) else 2 if i >= 13 and ball(i, j, k, 18, 7) else 4 if k < 2 else 0
+    file("around.nii", shapes.nifti(size, shapes.labels(size, at), spacing=(1, 1, 1.5)))
+    file("around.json", '{"1": "liver", "2": "stomach", "4": "table"}')
+    answer = report("tetrahedra", "around.nii", "--cells", 200, "--labels", "liver", "--surroundings", "-o", "around.spore")
+    assert [row["cut"] for row in answer["labels"]] == [[]], answer["labels"]
+    rest = {row["name"]: row for row in answer["surroundings"]}
+    assert list(rest) == ["stomach", "table"], rest
+    assert all(3 * row["triangles"] < row["triangles_before"] and 0 < row["off_voxels"] <= 0.5 for row in rest.values()), rest
+    assert rest["stomach"]["cut"] == [] and rest["table"]["cut"] == ["i-", "i+", "j-", "j+", "k-"], rest
+    scene = (WORK / "around.spore").read_text()
+    assert scene.count('role="unmovable"') == 2 and scene.count("<neo_hookean_tetrahedra") == 1, scene
+    assert "fault" not in spore("check", "around.spore").stdout
+    both = spore("tetrahedra", "around.nii", "--cells", 200, "--labels", "liver,table", "--surroundings", "-o", "both.spore").stdout
+    assert [line.split(":")[0].strip() for line in both.splitlines() if "unmovable" in line] == ["stomach"], both
+    assert [line.split(":")[0].strip() for line in both.splitlines() if "may cut it" in line] == ["table"], both
+    refuses("tetrahedra", "around.nii", "--cells", 200, "--surroundings", "-o", "no.spore", says=["--surroundings", "--labels"])
+    refuses("tetrahedra", "around.nii", "--cells", 200, "--labels", "liver", "--surroundings", "-o", "no.vtu", says=["--surroundings", "F.spore"])
+
+
+@check
 def scene_of_a_label_map():
     """A label map becomes a scene: a soft body of each organ, named as the file names it, joined by a seam; it runs."""
     if "volumes" not in FEATURES:

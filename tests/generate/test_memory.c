@@ -85,8 +85,11 @@ static bool label_cells(GError **to) {
   SporeTetrahedralMesh cells = {0};
   SporeLabelTetrahedraReport report = {0};
   SporeError error = SPORE_ERROR_INIT;
+  SporeLabelSurface surface = {.label = 1};
   if (!spore_label_surface(&map, 1, &skin, NULL, &error)) return spore_error_propagate(&error, to);
   spore_triangle_mesh_clear(&skin);
+  if (!spore_label_surfaces(&map, &surface, 1, NULL, &error)) return spore_error_propagate(&error, to);
+  spore_triangle_mesh_clear(&surface.mesh);
   bool fine =
       spore_label_tetrahedra("map", &map, &(SporeLabelTetrahedraOptions){.size = 0.002}, &cells, &report, NULL, to);
   spore_tetrahedral_mesh_clear(&cells);

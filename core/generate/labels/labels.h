@@ -43,4 +43,20 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
 bool spore_label_surface(const SporeLabelMap *map, uint16_t label, SporeTriangleMesh *surface,
                          const SporeProgress *progress, SporeError *error);
 
+/* The surface of one label among others, smooth and of few triangles. */
+typedef struct SporeLabelSurface {
+  uint16_t label;          /* given */
+  SporeTriangleMesh mesh;  /* m, closed, outward; spore_triangle_mesh_clear */
+  size_t triangles_before; /* before it was made of fewer */
+  double off; /* voxels, along the map's axes: the largest distance from its points, half a voxel apart, to the faces of
+                 its voxels, and from the middles of those to it */
+} SporeLabelSurface;
+#define SPORE_LABEL_SURFACE_OFF 0.5 /* voxels: the most that `off` may be */
+
+/* The surfaces of the labels given (each once, above 0), in one pass over the map. Borders between them are smoothed
+ * together, within .45 of a voxel; then each surface is made of as few triangles as stay within half a voxel. False
+ * with an error: no memory, too many faces, a label that no voxel has, cancelled; no mesh is left. */
+bool spore_label_surfaces(const SporeLabelMap *map, SporeLabelSurface *surfaces, size_t count,
+                          const SporeProgress *progress, SporeError *error);
+
 #endif

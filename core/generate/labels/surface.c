@@ -144,8 +144,7 @@ static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *err
   return true;
 }
 
-/* Whether the index axes are left-handed in space; every triangle is then turned over. */
-static bool mirrors(const SporeLabelMap *map) {
+bool spore_label_map_mirrors(const SporeLabelMap *map) {
   const double *a = map->axes;
   return spore_vec3_dot(spore_vec3(a[0], a[4], a[8]),
                         spore_vec3_cross(spore_vec3(a[1], a[5], a[9]), spore_vec3(a[2], a[6], a[10]))) < 0;
@@ -158,7 +157,7 @@ bool spore_label_surface(const SporeLabelMap *map, uint16_t label, SporeTriangle
               spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                               _("no voxel has the label %u; expected some; give one that there is"), (unsigned)label);
   done = done && march(&m, progress, error) && build(&m, surface, error);
-  for (size_t t = 0; done && mirrors(map) && t < surface->triangle_count; t++) {
+  for (size_t t = 0; done && spore_label_map_mirrors(map) && t < surface->triangle_count; t++) {
     uint32_t *corner = surface->triangles + 3 * t, swap = corner[1];
     corner[1] = corner[2], corner[2] = swap;
   }
