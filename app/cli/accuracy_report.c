@@ -24,11 +24,13 @@ const SporeReportMember spore_accuracy_members[] = {
         "together), line_stretch (largest part by which a piece of a line is longer or shorter than at rest; both "
         "null: "
         "there is none), us_per_step, p99_us, real_time_factor, cpu_s (for a simulated second), stable, as_written "
-        "(no step was unsolved), resolved (above the floor), pareto, repeats, and a step: force_evaluations, newton, "
+        "(no step was unsolved), sound (stable, as written, its energy off by no more than all that is at work), "
+        "resolved "
+        "(above the floor), pareto (of those that are sound), repeats, and a step: force_evaluations, newton, "
         "linear")},
-    {"methods",
-     N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
-        "smooth), converges (false: at these steps smaller ones do not help, while another method is much nearer)")},
+    {"methods", N_("name, order (slope of error over step; null: not told), order_spread, nominal (where forces are "
+                   "smooth), alike (a method before it that moves the bodies as it does; null: none), converges "
+                   "(false: at these steps smaller ones do not help, while another method is much nearer)")},
     {"levels", N_("with --levels: level, error (of space: by the reference's method)")},
     {"spheres",
      N_("with --spheres: factor, count (of the whole scene), and against the finest set, by the reference's method: "
@@ -92,6 +94,7 @@ static void report_point(SporeCli *cli, const SporeAccuracyReport *report, const
   spore_cli_number(cli, "cpu_s", point->cost);
   add_boolean(cli, "stable", point->stable);
   add_boolean(cli, "as_written", point->as_written);
+  add_boolean(cli, "sound", point->sound);
   add_boolean(cli, "resolved", point->resolved);
   add_boolean(cli, "pareto", point->pareto);
   spore_cli_count(cli, "repeats", (gint64)point->repeats);
@@ -110,6 +113,7 @@ static void report_methods(SporeCli *cli, const SporeAccuracyReport *report) {
     spore_cli_number(cli, "order", fit->order);
     spore_cli_number(cli, "order_spread", fit->order_spread);
     spore_cli_number(cli, "nominal", fit->nominal);
+    spore_cli_text(cli, "alike", fit->alike == m ? NULL : report->methods[fit->alike].label);
     add_boolean(cli, "converges", fit->converges);
     spore_cli_close(cli);
   }

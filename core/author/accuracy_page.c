@@ -59,14 +59,18 @@ const char *spore_accuracy_remark(const SporeAccuracyPoint *point) {
   if (!point->stable) return _("not stable");
   if (point->pareto) return _("Pareto");
   if (!point->resolved) return _("below what can be told");
-  return point->as_written ? "" : _("some steps not as written");
+  if (!point->as_written) return _("some steps not as written");
+  return point->sound ? "" : _("energy far off");
 }
 
 char *spore_accuracy_describe_methods(const SporeAccuracyReport *report) {
   GString *text = g_string_new(NULL);
   for (gsize m = 0; m < report->method_count; m++) {
     const SporeAccuracyFit *fit = &report->methods[m];
-    if (isnan(fit->order)) continue;
+    if (fit->alike != m)
+      g_string_append_printf(text, _("%s moves the bodies as %s does here\n"), fit->label,
+                             report->methods[fit->alike].label);
+    if (fit->alike != m || isnan(fit->order)) continue;
     g_string_append_printf(
         text, _("order of %s: %.2g +- %.1g (%g where forces are smooth)%s\n"), fit->label, fit->order,
         fit->order_spread, fit->nominal,
@@ -104,7 +108,7 @@ static void append_number(GString *text, double value) {
 char *spore_accuracy_csv(const SporeAccuracyReport *report) {
   GString *text =
       g_string_new("method,level,dt_s,error,final,worst,energy_drift,penetration,gap_m,line_stretch,us_per_step,p99_us,"
-                   "real_time_factor,cpu_s,force_evaluations,newton,linear,stable,as_written,resolved,"
+                   "real_time_factor,cpu_s,force_evaluations,newton,linear,stable,as_written,sound,resolved,"
                    "pareto,repeats\n");
   for (gsize i = 0; i < report->point_count; i++) {
     const SporeAccuracyPoint *p = &report->points[i];
@@ -126,7 +130,8 @@ char *spore_accuracy_csv(const SporeAccuracyReport *report) {
     g_string_append_printf(text, "%s,%s", report->methods[p->method].label,
                            p->level < 0 ? "" : spore_accuracy_level_name(p->level));
     for (gsize k = 0; k < G_N_ELEMENTS(row); k++) append_number(text, row[k]);
-    g_string_append_printf(text, ",%d,%d,%d,%d,%zu\n", p->stable, p->as_written, p->resolved, p->pareto, p->repeats);
+    g_string_append_printf(text, ",%d,%d,%d,%d,%d,%zu\n", p->stable, p->as_written, p->sound, p->resolved, p->pareto,
+                           p->repeats);
   }
   return g_string_free(text, FALSE);
 }

@@ -2,9 +2,12 @@
 #include "core/author/accuracy_source.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 
 #include "core/author/sphere_sets.h"
 #include "core/author/varied_worlds.h"
+
+#define EARLY_S 1e-9 /* what is shifted comes so much earlier, or rounding would make some of it a step late */
 
 /* The document with another number of spheres. */
 typedef struct SphereVariant {
@@ -32,7 +35,8 @@ static gboolean shift_channel(SporeTrackChannel *to, const SporeTrackChannel *fr
   gboolean good =
       device && device->type->exchange(device, start_s, &nothing, &first) && spore_track_append(to, 0, &first);
   for (gsize i = 0; good && i < from->count; i++)
-    if (from->time_s[i] > start_s) good = spore_track_append(to, from->time_s[i] - start_s, &from->states[i]);
+    if (from->time_s[i] > start_s)
+      good = spore_track_append(to, fmax(from->time_s[i] - start_s - EARLY_S, 0), &from->states[i]);
   if (device) device->type->close(device);
   return good;
 }

@@ -83,7 +83,7 @@ gboolean spore_budget_choice_is_valid(const SporeBudgetSearch *search, const Spo
   const SporeBudgetChoice *own = search->tried->pdata[0];
   if (choice == own) return isfinite(own->point.cost);
   const SporeAccuracyPoint *point = &choice->point;
-  return point->stable && isfinite(point->error) && (point->as_written || !own->point.as_written);
+  return point->stable && isfinite(point->error) && (point->sound || !own->point.sound);
 }
 
 gboolean spore_budget_choice_fits(const SporeBudgetSearch *search, const SporeBudgetChoice *choice) {

@@ -60,7 +60,7 @@ SporeBudgetChoice *spore_budget_choice_of_point(const SporeBudgetSearch *search,
 /* As a variation of the scene. settings: one a subject, to be kept as long. */
 SporeVariation spore_budget_choice_variation(const SporeBudgetSearch *search, const SporeBudgetChoice *choice,
                                              SporeBodySetting *settings);
-/* Whether its runs went as well as the scene's own. */
+/* Whether it is sound, or else the scene as it is is not, either. */
 gboolean spore_budget_choice_is_valid(const SporeBudgetSearch *search, const SporeBudgetChoice *choice);
 /* Whether it is valid and costs no more than it may. */
 gboolean spore_budget_choice_fits(const SporeBudgetSearch *search, const SporeBudgetChoice *choice);

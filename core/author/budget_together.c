@@ -127,8 +127,8 @@ static const Set *best_forecast(const SporeBudgetSearch *search, const SporeBudg
     const Set *set = &g_array_index(sets, Set, i);
     SporeBudgetChoice *choice = set->choice;
     if (set->changes < 2 || spore_budget_was_tried(search, choice)) continue;
-    choice->point = (SporeAccuracyPoint){
-        .error = sqrt(set->square), .cost = cost_of(base, set), .stable = true, .as_written = true};
+    choice->point =
+        (SporeAccuracyPoint){.error = sqrt(set->square), .cost = cost_of(base, set), .stable = true, .sound = true};
     if (!spore_budget_choice_is_better(search, choice, best ? best->choice : base)) continue;
     best = set;
   }

@@ -56,7 +56,8 @@ static bool add_method(SporeStudy *study, const SporeAccuracyMethod *method) {
   if (!methods) return no_memory(study);
   report->methods = methods;
   SporeAccuracyFit *fit = &methods[report->method_count++];
-  *fit = (SporeAccuracyFit){.method = *method, .nominal = spore_study_nominal_order(method->integrator)};
+  *fit = (SporeAccuracyFit){
+      .method = *method, .nominal = spore_study_nominal_order(method->integrator), .alike = report->method_count - 1};
   spore_accuracy_label(method, fit->label);
   return true;
 }

@@ -82,8 +82,9 @@ typedef struct SporeAccuracyPoint {
   SporeTrialEvents events;
   bool stable;
   bool as_written; /* every step was solved as the scene is written */
+  bool sound;      /* stable, as written, and its energy is off by no more than all that is at work */
   bool resolved;   /* the error is above what the reference and the scene can tell */
-  bool pareto;     /* no resolved point has both a smaller error and a smaller cost */
+  bool pareto;     /* sound and resolved, and no other such point has both a smaller error and a smaller cost */
 } SporeAccuracyPoint;
 
 /* A method over all its steps. */
@@ -93,7 +94,8 @@ typedef struct SporeAccuracyFit {
   double order;        /* slope of the error over the step; not a number: fewer than three points tell it */
   double order_spread; /* of the slope */
   double nominal;      /* order where forces are smooth */
-  bool converges;      /* false: at these steps smaller ones do not help, while another method is much nearer */
+  size_t alike;   /* index of the first method that moves the bodies alike at the same steps; its own: none before */
+  bool converges; /* false: at these steps smaller ones do not help, while another method is much nearer */
 } SporeAccuracyFit;
 
 typedef struct SporeAccuracyReference {

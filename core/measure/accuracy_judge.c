@@ -14,6 +14,9 @@
 #define SAME_COST 1.1
 #define NEARER 1.2 /* times, to be worth a word */
 #define WORSE 5    /* times the error of another method at the same step */
+#define MUCH 10    /* times nearer, to be worth a word though it takes longer */
+#define LONGER 4   /* times, at most */
+#define AT_WORK 1  /* of the energy at work: what is off by more is no motion of this scene */
 
 /* Energy that moves about in the reference. */
 static double energy_at_work(const SporeTrial *reference) {
@@ -57,16 +60,17 @@ void spore_study_judge_point(const SporeStudy *study, SporeAccuracyPoint *point,
   point->events = trial->events;
   point->stable = trial->stable;
   point->as_written = trial->unsolved == 0;
+  point->sound = point->stable && point->as_written && point->energy_drift <= AT_WORK;
   point->resolved = point->stable && isfinite(point->error) && point->error >= study->report->floor;
 }
 
 static void find_pareto(SporeAccuracyReport *report) {
   for (size_t i = 0; i < report->point_count; i++) {
     SporeAccuracyPoint *point = &report->points[i];
-    point->pareto = point->resolved;
+    point->pareto = point->resolved && point->sound;
     for (size_t k = 0; k < report->point_count && point->pareto; k++) {
       const SporeAccuracyPoint *other = &report->points[k];
-      if (k == i || !other->resolved) continue;
+      if (k == i || !other->resolved || !other->sound) continue;
       bool nowhere_worse = other->error <= point->error && other->cost <= point->cost;
       if (nowhere_worse && (other->error < point->error || other->cost < point->cost)) point->pareto = false;
     }
@@ -122,12 +126,33 @@ static const SporeAccuracyPoint *usual(const SporeStudy *study) {
   return best;
 }
 
-static const SporeAccuracyPoint *nearer(const SporeAccuracyReport *report, const SporeAccuracyPoint *than) {
+/* Error of a point, as far as can be told. */
+static double told(const SporeAccuracyReport *report, const SporeAccuracyPoint *point) {
+  return fmax(point->error, report->floor);
+}
+
+/* The sound point that is the nearest, and of those that cannot be told apart the cheapest, for at most `cost`. NULL:
+ * none is `times` nearer than this one. */
+static const SporeAccuracyPoint *nearer(const SporeAccuracyReport *report, const SporeAccuracyPoint *than, double cost,
+                                        double times) {
   const SporeAccuracyPoint *best = NULL;
   for (size_t i = 0; i < report->point_count; i++) {
     const SporeAccuracyPoint *point = &report->points[i];
-    if (!point->stable || !(point->cost <= SAME_COST * than->cost) || !(point->error * NEARER < than->error)) continue;
-    if (!best || point->error < best->error) best = point;
+    if (!point->sound || !(point->cost <= cost)) continue;
+    if (than->stable && !(told(report, point) * times < than->error)) continue;
+    double error = told(report, point), least = best ? told(report, best) : HUGE_VAL;
+    if (error < least || (error <= least && point->cost < best->cost)) best = point;
+  }
+  return best;
+}
+
+/* The cheapest sound point that is much nearer and does not take too long. */
+static const SporeAccuracyPoint *much_nearer(const SporeAccuracyReport *report, const SporeAccuracyPoint *than) {
+  const SporeAccuracyPoint *best = NULL;
+  for (size_t i = 0; i < report->point_count; i++) {
+    const SporeAccuracyPoint *point = &report->points[i];
+    if (!point->sound || !(told(report, point) * MUCH <= than->error) || point->cost > LONGER * than->cost) continue;
+    if (!best || point->cost < best->cost) best = point;
   }
   return best;
 }
@@ -149,27 +174,45 @@ static void say_usual(const SporeAccuracyReport *report, const SporeAccuracyPoin
              100 * report->floor, step_ms);
 }
 
+/* "is 3 times closer", or at least that where the better one's error cannot be told. */
+static void say_closer(const SporeAccuracyReport *report, const SporeAccuracyPoint *point,
+                       const SporeAccuracyPoint *better, char *text, size_t size) {
+  double times = point->error / told(report, better);
+  snprintf(text, size, better->resolved ? _("is %.2g times closer") : _("is at least %.2g times closer"), times);
+}
+
 static void say_better(const SporeAccuracyReport *report, const SporeAccuracyPoint *point, char *text, size_t size) {
-  char name[128];
-  const SporeAccuracyPoint *better = point->resolved || !point->stable ? nearer(report, point) : NULL;
-  if (better) name_point(report, better, name, sizeof name);
-  if (!better && point->resolved) snprintf(text, size, _("; nothing that was tried is nearer for the same time"));
-  else if (better && !point->stable) snprintf(text, size, _("; %s is, for the same time"), name);
-  else if (better && better->resolved)
-    snprintf(text, size, _("; %s is %.2g times closer for the same time"), name, point->error / better->error);
-  else if (better)
-    snprintf(text, size, _("; %s is at least %.2g times closer for the same time"), name, point->error / report->floor);
-  else *text = '\0';
+  char name[128], closer[96];
+  *text = '\0';
+  if (point->stable && !point->resolved) return;
+  const SporeAccuracyPoint *better = nearer(report, point, SAME_COST * point->cost, NEARER);
+  const SporeAccuracyPoint *other = !better && point->stable ? much_nearer(report, point) : NULL;
+  if (better || other) name_point(report, better ? better : other, name, sizeof name);
+  if (better && !point->stable) snprintf(text, size, _("; %s is, for the same time"), name);
+  else if (better) {
+    say_closer(report, point, better, closer, sizeof closer);
+    snprintf(text, size, _("; %s %s for the same time"), name, closer);
+  } else if (other) {
+    say_closer(report, point, other, closer, sizeof closer);
+    snprintf(text, size, _("; nothing is nearer for the same time, but %s %s for %.2g times the time"), name, closer,
+             other->cost / point->cost);
+  } else if (point->resolved) snprintf(text, size, _("; nothing that was tried is nearer for the same time"));
+}
+
+/* What is wrong with a stable point in other ways than by its error; "": nothing. */
+static const char *fault_of(const SporeAccuracyPoint *point) {
+  if (!point->stable || point->sound) return "";
+  return point->as_written ? _(" (its energy is far off)") : _(" (some steps are not solved)");
 }
 
 static bool say(SporeStudy *study) {
-  char first[256] = "", second[256] = "", whole[512];
+  char first[256] = "", second[320] = "", whole[640];
   const SporeAccuracyPoint *point = usual(study);
   if (point) {
     say_usual(study->report, point, first, sizeof first);
     say_better(study->report, point, second, sizeof second);
   }
-  snprintf(whole, sizeof whole, "%s%s", first, second);
+  snprintf(whole, sizeof whole, "%s%s%s", first, point ? fault_of(point) : "", second);
   study->report->sentence = spore_copy_text(whole);
   return study->report->sentence;
 }

@@ -18,7 +18,8 @@
 #define PERTURBATION 1e-8  /* of a body's length */
 #define CHAOTIC 1e-3
 #define SPREAD_RUNS 8
-#define AGREE 3 /* times what both say of their errors */
+#define AGREE 3    /* times what both say of their errors */
+#define ALIKE 1e-6 /* of a body's length: what is no farther apart is the same but for rounding */
 
 double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b) {
   size_t bodies = study->points.body_count;
@@ -69,6 +70,31 @@ static bool weigh(const SporeStudy *study, size_t method, int level, Candidate *
   return isfinite(near) && isfinite(far);
 }
 
+/* Whether two methods move the bodies alike: to rounding at two steps at least, and nowhere farther apart than what
+ * rounding may grow to. */
+static bool are_alike(const SporeStudy *study, size_t method, size_t other) {
+  const SporeAccuracyReport *report = study->report;
+  size_t alike = 0;
+  for (size_t i = 0; i < report->point_count; i++)
+    for (size_t k = 0; k < report->point_count; k++) {
+      const SporeAccuracyPoint *a = &report->points[i], *b = &report->points[k];
+      bool same_step = a->level == b->level && fabs(a->dt_s / b->dt_s - 1) < 1e-9;
+      if (a->method != method || b->method != other || !same_step) continue;
+      double apart = spore_trial_difference(&study->points, &study->trials[i], &study->trials[k]).worst;
+      if (!(apart <= CHAOTIC)) return false;
+      alike += apart <= ALIKE;
+    }
+  return alike > 1;
+}
+
+/* A second method that goes the same way checks nothing, and a reader takes it for another one. */
+static void find_alike(SporeStudy *study) {
+  SporeAccuracyReport *report = study->report;
+  for (size_t m = 0; m < report->method_count; m++)
+    for (size_t k = 0; k < m && report->methods[m].alike == m; k++)
+      if (are_alike(study, m, k)) report->methods[m].alike = k;
+}
+
 /* How often the smallest step may be halved for runs that may take `most_s` seconds; `runs`: their work, by the finest.
  */
 static int halvings(const SporeStudy *study, const Candidate *candidate, double runs, double most_s) {
@@ -80,15 +106,21 @@ static int halvings(const SporeStudy *study, const Candidate *candidate, double 
   return count;
 }
 
-/* The method whose error would be the smallest in the time that there is, `but` left out. */
-static bool choose(const SporeStudy *study, int level, size_t but, double runs, double most_s, Candidate *best,
-                   int *count) {
+/* Whether a method is no second one beside another: the same integrator, or where `alike` says so one that moves the
+ * bodies alike. */
+static bool is_same(const SporeAccuracyReport *report, size_t method, size_t other, bool alike) {
+  if (other >= report->method_count) return false;
+  const SporeAccuracyFit *a = &report->methods[method], *b = &report->methods[other];
+  return a->method.integrator == b->method.integrator || (alike && a->alike == b->alike);
+}
+
+/* The method whose error would be the smallest in the time that there is, but none that is the same as `but`. */
+static bool choose(const SporeStudy *study, int level, size_t but, bool alike, double runs, double most_s,
+                   Candidate *best, int *count) {
   double least = HUGE_VAL;
   for (size_t m = 0; m < study->report->method_count; m++) {
     Candidate candidate;
-    bool same = but < study->report->method_count &&
-                study->report->methods[m].method.integrator == study->report->methods[but].method.integrator;
-    if (same || !weigh(study, m, level, &candidate)) continue;
+    if (is_same(study->report, m, but, alike) || !weigh(study, m, level, &candidate)) continue;
     int halved = halvings(study, &candidate, runs, most_s);
     double error = candidate.error * pow(2, -candidate.order * halved);
     if (!(error < least)) continue;
@@ -156,7 +188,7 @@ static bool find_growth(SporeStudy *study, int level, const SporeTrial *plain, d
   return true;
 }
 
-/* How far a second method comes to the same. */
+/* How far a second method comes to the same: one that goes another way, if there is one. */
 static bool cross_check(SporeStudy *study, int level) {
   SporeAccuracyReference *reference = &study->report->reference;
   Candidate second;
@@ -164,7 +196,10 @@ static bool cross_check(SporeStudy *study, int level) {
   SporeTrial trial;
   reference->cross_method = SIZE_MAX;
   reference->agreed = false;
-  if (!choose(study, level, reference->method, 1, CROSS_SHARE * study->most_s, &second, &halved)) return true;
+  bool found = false;
+  for (int alike = 1; alike >= 0 && !found; alike--)
+    found = choose(study, level, reference->method, alike, 1, CROSS_SHARE * study->most_s, &second, &halved);
+  if (!found) return true;
   reference->cross_method = second.method;
   reference->cross_dt_s = spore_trial_step(study->report->interval_s, second.dt_s / (double)(1 << halved));
   reference->cross_expected = second.error * pow(2, -second.order * halved);
@@ -233,7 +268,8 @@ bool spore_study_refer(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
   int level = spore_study_finest_level(report), halved = 0;
   Candidate best;
-  if (!choose(study, level, SIZE_MAX, 2, SHARE * study->most_s, &best, &halved))
+  find_alike(study);
+  if (!choose(study, level, SIZE_MAX, false, 2, SHARE * study->most_s, &best, &halved))
     return spore_error_set(
         study->error, SPORE_ERROR_NUMERICAL, NULL,
         _("no reference converges: no method is stable at three of the steps that there was time for; "

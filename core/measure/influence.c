@@ -6,15 +6,27 @@
 
 const char *const spore_verdict_names[] = {"physical", "still", "coarse", "effect", NULL};
 
-/* Where a body's points begin among those of a sample; SIZE_MAX: the body is not followed. */
-static size_t first_point(const SporeTrialPoints *points, uint32_t body, size_t *count) {
+/* Where a body's points begin among those of a sample; SIZE_MAX: the body is not followed. *index: which one it is of
+ * those that are followed. */
+static size_t first_point(const SporeTrialPoints *points, uint32_t body, size_t *index) {
   size_t first = 0;
-  for (size_t k = 0; k < points->body_count; k++) {
-    *count = points->bodies[k].count;
-    if (points->bodies[k].body == body) return first;
-    first += points->bodies[k].count;
-  }
+  for (*index = 0; *index < points->body_count; first += points->bodies[(*index)++].count)
+    if (points->bodies[*index].body == body) return first;
   return SIZE_MAX;
+}
+
+/* Sum of squares of how far the particles of a body are apart over the samples, m^2, for what add_body says. */
+static double add_cloud(const SporeTrialPoints *points, const SporeTrial *a, size_t index_a,
+                        const SporeTrialPoints *other_points, const SporeTrial *b, size_t index_b, double *counted,
+                        double *worst) {
+  double sum = 0, length = points->bodies[index_a].length;
+  for (size_t s = 0; s < a->samples; s++, ++*counted) {
+    size_t row_a = s * points->body_count + index_a, row_b = s * other_points->body_count + index_b;
+    double square = length * length * spore_trial_cloud_square(a, row_a, b, row_b, length);
+    sum += square;
+    *worst = fmax(*worst, sqrt(square));
+  }
+  return sum;
 }
 
 /* Sum of squares of the distances of a body's points; *counted: points that are numbers in both; *worst: the largest.
@@ -55,9 +67,10 @@ SporeInfluence spore_influence_between(const SporeTrialPoints *points, const Spo
   for (size_t k = 0, first = 0; k < points->body_count; first += points->bodies[k++].count) {
     const SporeTrialBody *body = &points->bodies[k];
     double counted = 0, worst = 0;
-    size_t count, there = first_point(other_points, body->body, &count);
-    if (there == SIZE_MAX || count != body->count) continue;
-    double sum = add_body(trial, other, first, there, count, &counted, &worst);
+    size_t index, there = first_point(other_points, body->body, &index);
+    if (there == SIZE_MAX || other_points->bodies[index].count != body->count) continue;
+    double sum = body->changes ? add_cloud(points, trial, k, other_points, other, index, &counted, &worst)
+                               : add_body(trial, other, first, there, body->count, &counted, &worst);
     if (counted == 0 || !(body->length > 0)) continue;
     influence.rms += sum / counted / (body->length * body->length);
     bodies++;

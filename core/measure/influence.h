@@ -15,8 +15,8 @@ typedef struct SporeInfluence {
   double force;        /* root mean square difference of the forces on bodies that devices move, N */
 } SporeInfluence;
 
-/* Compares two trials whose looks were at the same times. Bodies that only one of them followed are left out, as are
- * particles that are out of the world in either. */
+/* Compares two trials whose looks were at the same times. Bodies that only one of them followed are left out. Particles
+ * that come and go are compared as spore_trial_difference does. */
 SporeInfluence spore_influence_between(const SporeTrialPoints *points, const SporeTrial *trial,
                                        const SporeTrialPoints *other_points, const SporeTrial *other);
 /* How far a point of the body moved from where it was at the start, by the length of the body; `followed`: index in

@@ -41,12 +41,14 @@ static bool allocate(Run *run) {
   trial->kinetic = SPORE_NEW_ARRAY(double, samples);
   trial->momentum = SPORE_NEW_ARRAY(double, samples * 3);
   trial->centre = SPORE_NEW_ARRAY(double, samples * run->points->body_count * 3);
+  trial->spread = SPORE_NEW_ARRAY(double, samples * run->points->body_count);
+  trial->present = SPORE_NEW_ARRAY(double, samples * run->points->body_count);
   trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_depth = SPORE_NEW_ARRAY(double, samples);
   run->mappings = SPORE_NEW_ARRAY(SporeMapping, SPORE_LOD_COUNT * run->points->body_count);
-  return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre &&
-         trial->device_force && trial->contact_force && trial->contact_depth && run->mappings;
+  return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre && trial->spread &&
+         trial->present && trial->device_force && trial->contact_force && trial->contact_depth && run->mappings;
 }
 
 /* Maps the points at each level that the body has: it may change from one to another. */
@@ -126,16 +128,24 @@ static bool look_at_body(Run *run, size_t k, const SporeSnapshot *lines, double 
   return finite;
 }
 
-/* Mean of the positions that are numbers. */
-static void take_centre(const double *positions, size_t count, double *centre) {
-  double counted = 0;
+/* Mean and spread of the positions that are in the world. */
+static void take_cloud(SporeTrial *trial, size_t row, const double *positions, size_t count) {
+  double counted = 0, square = 0;
   SporeVec3 sum = {0, 0, 0};
   for (size_t i = 0; i < count; i++)
-    if (isfinite(positions[3 * i])) {
+    if (isfinite(positions[3 * i]) && !spore_particle_is_out(positions + 3 * i)) {
       sum = spore_vec3_add(sum, spore_vec3_load(positions + 3 * i));
       counted++;
     }
-  spore_vec3_store(centre, spore_vec3_scale(counted > 0 ? 1 / counted : 0, sum));
+  SporeVec3 centre = spore_vec3_scale(counted > 0 ? 1 / counted : 0, sum);
+  for (size_t i = 0; i < count; i++)
+    if (isfinite(positions[3 * i]) && !spore_particle_is_out(positions + 3 * i)) {
+      SporeVec3 apart = spore_vec3_sub(spore_vec3_load(positions + 3 * i), centre);
+      square += spore_vec3_dot(apart, apart);
+    }
+  spore_vec3_store(trial->centre + 3 * row, centre);
+  trial->spread[row] = counted > 0 ? sqrt(square / counted) : 0;
+  trial->present[row] = counted;
 }
 
 /* Deepest overlap among the contacts that the snapshot lists. */
@@ -191,8 +201,11 @@ static void look(Run *run) {
   for (size_t k = 0; k < run->points->body_count; k++) {
     double *positions = trial->positions + 3 * (s * run->points->count + point);
     trial->finite &= look_at_body(run, k, run->lines ? snapshot : NULL, positions);
-    take_centre(positions, run->points->bodies[k].count, trial->centre + 3 * (s * run->points->body_count + k));
-    point += run->points->bodies[k].count;
+    const SporeTrialBody *body = &run->points->bodies[k];
+    const double *q = spore_world_q(run->world, body->body);
+    size_t nodes = body->changes ? spore_world_body_model(run->world, body->body)->node_count : 0;
+    take_cloud(trial, s * run->points->body_count + k, nodes ? q : positions, nodes ? nodes : body->count);
+    point += body->count;
   }
   take_forces(run, snapshot, trial->device_force + 3 * s * trial->world_bodies);
   take_contacts(run, snapshot, trial->contact_force + 3 * s * trial->world_bodies);
@@ -296,6 +309,8 @@ void spore_trial_clear(SporeTrial *trial) {
   spore_free(trial->kinetic);
   spore_free(trial->momentum);
   spore_free(trial->centre);
+  spore_free(trial->spread);
+  spore_free(trial->present);
   spore_free(trial->device_force);
   spore_free(trial->contact_force);
   spore_free(trial->contact_depth);

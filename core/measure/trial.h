@@ -21,7 +21,9 @@ typedef struct SporeTrialBody {
   size_t count;  /* of its points */
   double *rest;  /* count x 3, body's frame at rest, m; of particles: NULL */
   size_t stride; /* of particles: point i is particle i * stride */
-  double length; /* characteristic, m: diagonal of the box around its points at time 0 */
+  double length; /* characteristic, m: diagonal of the box around its points at rest */
+  bool changes;  /* particles come into the world or leave it: which of them is where means nothing then, and trials are
+                    compared by their number, their mean place and how far they are spread */
 } SporeTrialBody;
 
 /* Points of the bodies of a scene that trials follow. */
@@ -57,7 +59,10 @@ typedef struct SporeTrial {
   double *energy;               /* samples: total, J */
   double *kinetic;              /* samples, J */
   double *momentum;             /* samples x 3: of all passive bodies, N s */
-  double *centre;               /* samples x bodies followed x 3: mean position of the points of each, m */
+  double *centre;               /* samples x bodies followed x 3: mean position of the points of each, m; of particles
+                                   that change: of all that are in the world */
+  double *spread;               /* samples x bodies followed: root mean square distance of these from there, m */
+  double *present;              /* samples x bodies followed: number of these */
   size_t world_bodies, spheres; /* of the world */
   double *device_force;  /* samples x world_bodies x 3: force on each body that a device moves, N; 0 of the others */
   double *contact_force; /* samples x world_bodies x 3: of contacts alone, on each body, N */
@@ -93,7 +98,10 @@ typedef struct SporeTrialDifference {
   double worst; /* of any point at any sample */
 } SporeTrialDifference;
 /* Both trials followed the same points at the same times. Infinite where one of them has fewer samples, or something
- * that is not finite. Particles that are out of the world in either trial are left out. */
+ * that is not finite. Of a body whose particles change, the square of a distance is the sum of those of the mean places
+ * and of the spreads, and of the share of particles that only one trial has, in lengths of the body. */
 SporeTrialDifference spore_trial_difference(const SporeTrialPoints *points, const SporeTrial *a, const SporeTrial *b);
+/* That square for a body whose particles change, at one sample. row_a, row_b: of the body and sample, in `present`. */
+double spore_trial_cloud_square(const SporeTrial *a, size_t row_a, const SporeTrial *b, size_t row_b, double length);
 
 #endif

@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/measure/trial.h"
+#include "core/sim/tool/tool.h"
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(
@@ -69,12 +70,11 @@ static size_t spread(double *points, size_t count, double *distance) {
   return wanted;
 }
 
-/* Diagonal of the box around points; those out of the world do not count. */
-static double diagonal(const double *points, size_t count, size_t stride) {
+/* Diagonal of the box around points. */
+static double diagonal(const double *points, size_t count) {
   SporeVec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < count; i++) {
-    const double *p = points + 3 * i * stride;
-    if (spore_particle_is_out(p)) continue;
+    const double *p = points + 3 * i;
     low = spore_vec3(fmin(low.x, p[0]), fmin(low.y, p[1]), fmin(low.z, p[2]));
     high = spore_vec3(fmax(high.x, p[0]), fmax(high.y, p[1]), fmax(high.z, p[2]));
   }
@@ -88,14 +88,18 @@ static bool choose_body(SporeTrialBody *chosen, const SporeWorld *world) {
   if (model->type->particles) {
     chosen->stride = (model->node_count + SPORE_TRIAL_POINTS - 1) / SPORE_TRIAL_POINTS;
     chosen->count = (model->node_count + chosen->stride - 1) / chosen->stride;
-    chosen->length = diagonal(spore_world_q(world, chosen->body), chosen->count, chosen->stride);
-    return true;
+    chosen->changes = spore_world_exchanges_particles(world);
+    double *q = NULL; /* in the world there may be none yet */
+    bool placed = place_at_rest(model, &q);
+    if (placed) chosen->length = diagonal(q, model->node_count);
+    spore_free(q);
+    return placed;
   }
   bool good = take_all(model, &chosen->rest, &count);
   double *distance = SPORE_NEW_ARRAY(double, count);
   good = good && distance;
   if (good) chosen->count = spread(chosen->rest, count, distance);
-  if (good) chosen->length = diagonal(chosen->rest, count, 1);
+  if (good) chosen->length = diagonal(chosen->rest, count);
   spore_free(distance);
   return good;
 }
@@ -123,22 +127,39 @@ void spore_trial_points_clear(SporeTrialPoints *points) {
   *points = (SporeTrialPoints){0};
 }
 
-/* Sum of squares of one sample, each body with the same weight; raises *worst. */
-static double sample_square(const SporeTrialPoints *points, const double *a, const double *b, double *worst) {
+double spore_trial_cloud_square(const SporeTrial *a, size_t row_a, const SporeTrial *b, size_t row_b, double length) {
+  double more = fmax(a->present[row_a], b->present[row_b]), missing = more - fmin(a->present[row_a], b->present[row_b]);
+  if (!(more > 0)) return 0;
+  double square = missing / more * missing / more;
+  if (missing == more) return square;
+  double spread = (a->spread[row_a] - b->spread[row_b]) / length;
+  SporeVec3 apart = spore_vec3_sub(spore_vec3_load(a->centre + 3 * row_a), spore_vec3_load(b->centre + 3 * row_b));
+  return square + spread * spread + spore_vec3_dot(apart, apart) / (length * length);
+}
+
+/* Sum of squares of a sample, each body with the same weight; raises *worst. */
+static double sample_square(const SporeTrialPoints *points, const SporeTrial *trial, const SporeTrial *other,
+                            size_t sample, double *worst) {
+  const double *a = trial->positions + 3 * sample * trial->points, *b = other->positions + 3 * sample * other->points;
   double sum = 0;
   for (size_t k = 0; k < points->body_count; k++) {
     const SporeTrialBody *body = &points->bodies[k];
+    if (body->changes) {
+      size_t row = sample * points->body_count + k;
+      double part = spore_trial_cloud_square(trial, row, other, row, body->length);
+      sum += part;
+      if (!(part <= *worst * *worst)) *worst = sqrt(part);
+      a += 3 * body->count, b += 3 * body->count;
+      continue;
+    }
     double square = 0;
-    size_t counted = 0;
     for (size_t i = 0; i < body->count; i++, a += 3, b += 3) {
       SporeVec3 apart = spore_vec3_sub(spore_vec3_load(a), spore_vec3_load(b));
-      if (!body->rest && !spore_vec3_is_finite(apart)) continue; /* a particle out of the world */
       double part = spore_vec3_dot(apart, apart) / (body->length * body->length);
       square += part;
-      counted++;
       if (!(part <= *worst * *worst)) *worst = sqrt(part);
     }
-    if (counted) sum += square / (double)counted;
+    sum += square / (double)body->count;
   }
   return sum / (double)points->body_count;
 }
@@ -153,7 +174,7 @@ SporeTrialDifference spore_trial_difference(const SporeTrialPoints *points, cons
   SporeTrialDifference difference = {0};
   double sum = 0, last = 0;
   for (size_t s = 1; s < a->samples; s++) {
-    last = sample_square(points, a->positions + 3 * s * a->points, b->positions + 3 * s * b->points, &difference.worst);
+    last = sample_square(points, a, b, s, &difference.worst);
     sum += last;
   }
   difference.rms = or_infinite(sqrt(sum / (double)(a->samples - 1)));

@@ -35,7 +35,7 @@ static SporeAccuracyPoint point_of(const Table *table, const SporeBudgetChoice *
                               .cost = cost / parts,
                               .error = sqrt(square) * (parts > 1 ? 10 * parts : 1),
                               .stable = true,
-                              .as_written = true};
+                              .sound = true};
 }
 
 static gboolean look_up(SporeBudgetSearch *search, SporeBudgetChoice *choice, gboolean timed_only,

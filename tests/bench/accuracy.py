@@ -49,13 +49,13 @@ class Study:
         self.stability = self.take(run([spore, "stability", self.path, "--quick", "--json"]), "stability", (0, 1))
 
     def reached(self, target):
-        """The cheapest stable point of each method that is surely near enough: {method: point}. None: nothing so small can
+        """The cheapest sound point of each method that is surely near enough: {method: point}. None: nothing so small can
         be told."""
         if not self.accuracy or self.accuracy["resolution"]["floor"] > target:
             return None
         found = {}
         for point in self.accuracy["points"]:
-            near = point["stable"] and point["error"] is not None and point["error"] <= target
+            near = point["sound"] and point["error"] is not None and point["error"] <= target
             if near and point["cpu_s"] < found.get(point["method"], {"cpu_s": math.inf})["cpu_s"]:
                 found[point["method"]] = point
         return found

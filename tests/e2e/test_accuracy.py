@@ -112,6 +112,58 @@ def report_holds_what_the_contract_says():
     assert "<svg" in page and not re.search(r'(src|href)="', page) and page.count("<tr") == 13
 
 
+def named(report, words):
+    """The point that the sentence calls "METHOD at N ms"."""
+    method, step = re.fullmatch(r"(\S+) at (\S+) ms", words).groups()
+    return next(p for p in points_of(report, method) if f"{1e3 * p['dt_s']:.3g}" == step)
+
+
+@check
+def the_sentence_says_what_the_points_say():
+    """Whatever a clock makes of costs: what is called nearer is sound, as much nearer as is said, and takes the time that is
+    said; where nothing is called nearer, nothing sound is for the same time."""
+    report = json.loads(spore(swing(replace=('integrator="tr_bdf2"', 'integrator="implicit_euler"')), *FEW, "--json").stdout)
+    first, _, second = report["sentence"].partition("; ")
+    own, floor = named(report, first.partition(":")[0]), report["resolution"]["floor"]
+    same_time = [p for p in report["points"] if p["sound"] and p["cpu_s"] <= 1.1 * own["cpu_s"] and 1.2 * max(p["error"], floor) < own["error"]]
+    if "nothing" in second:
+        assert not same_time, (second, same_time)
+    found = re.search(r"(\S+ at \S+ ms) is (at least )?(\S+) times closer for (the same|(\S+) times the) time", second)
+    assert found or second == "nothing that was tried is nearer for the same time", report["sentence"]
+    if found:
+        better = named(report, found[1])
+        assert better["sound"] and math.isclose(own["error"] / max(better["error"], floor), float(found[3]), rel_tol=0.06), (found[0], better, own)
+        assert bool(found[2]) == (better["error"] < floor), (found[0], better)
+        assert better["cpu_s"] / own["cpu_s"] <= 1.1 if not found[5] else math.isclose(better["cpu_s"] / own["cpu_s"], float(found[5]), rel_tol=0.06), (found[0], better, own)
+
+
+@check
+def what_is_far_off_is_not_praised():
+    """Position-based steps of 4 ms on a net give it energies thousands of times what is at work: none of them is sound, nor in
+    the Pareto set, and the table says so."""
+    wanted = (SCENES / "table1-mass-spring.spore", "--methods", "implicit_euler,tr_bdf2,position_based", "--dt", "0.001:0.004:3", "--time", "0.05", "--full")
+    report = json.loads(spore(*wanted, "--json", "--html", "far.html").stdout)
+    for point in report["points"]:
+        right = point["stable"] and point["as_written"] and point["energy_drift"] <= 1
+        assert point["sound"] == right and (right or not point["pareto"]), point
+    swept = points_of(report, "position_based")
+    assert swept and not any(p["sound"] for p in swept) and all(p["sound"] for p in points_of(report, "implicit_euler")), report["points"]
+    rows = [row for row in (WORK / "far.html").read_text().split("<tr") if "position_based" in row]
+    assert len(rows) >= 3 and all(re.search("not stable|not as written|energy far off|below what", row) for row in rows if "<td>" in row), rows
+
+
+@check
+def methods_that_go_the_same_way_are_said_to():
+    """A ball that bounces is moved alike by several methods: the second one, which checks the reference, is none of these."""
+    report = json.loads(spore(MINIMAL, "--dt", "0.0005:0.004:4", "--time", "0.5", "--full", "--json").stdout)
+    alike = {method["name"]: method["alike"] or method["name"] for method in report["methods"]}
+    assert alike["implicit_euler"] == alike["symplectic_euler"] and alike["tr_bdf2"] == alike["implicit_midpoint"] == "tr_bdf2", alike
+    reference = report["reference"]
+    assert alike[reference["method"]] != alike[reference["cross_method"]], (reference, alike)
+    apart = json.loads(spore(swing(), *FEW, "--json").stdout)
+    assert all(method["alike"] is None for method in apart["methods"]), apart["methods"]
+
+
 @check
 def plots_are_pictures_where_that_can_be():
     """PNG of at least the size of the plot, or a refusal before any work."""

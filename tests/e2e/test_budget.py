@@ -63,7 +63,7 @@ def a_budget_that_is_none_is_refused():
         done = spore("advise", STRING, "--budget-us", text, status=2)
         assert len(done.stderr.splitlines()) == 1 and "--budget-us" in done.stderr and not done.stdout, done
     assert "--keep" in spore("advise", STRING, "--budget-us", 10, "--keep", "nobody", status=2).stderr
-    assert "--budget-us" in spore("advise", STRING, "--apply", status=2).stderr
+    assert "--budget-us" in spore("advise", STRING, "--keep", "string", status=2).stderr
 
 
 @check

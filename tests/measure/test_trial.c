@@ -92,6 +92,24 @@ static void test_difference(void) {
   spore_trial_points_clear(&points);
 }
 
+/* Two clouds of the same body in a sample: which particle is where is no matter, how many there are is. */
+static void test_cloud(void) {
+  double centre[2][3] = {{0, 0, 0}, {0.3, 0.4, 0}}, spread[2] = {0.1, 0.1}, present[2] = {4, 4};
+  SporeTrial a = {.centre = centre[0], .spread = &spread[0], .present = &present[0]};
+  SporeTrial b = {.centre = centre[1], .spread = &spread[1], .present = &present[1]};
+  g_assert_cmpfloat(spore_trial_cloud_square(&a, 0, &a, 0, 1), ==, 0);
+  g_assert_cmpfloat_with_epsilon(spore_trial_cloud_square(&a, 0, &b, 0, 1), 0.25, 1e-12);
+  g_assert_cmpfloat_with_epsilon(spore_trial_cloud_square(&a, 0, &b, 0, 0.5), 1, 1e-12);
+  spread[1] = 0.2;
+  g_assert_cmpfloat_with_epsilon(spore_trial_cloud_square(&a, 0, &b, 0, 1), 0.26, 1e-12);
+  present[1] = 2; /* half of them are missing */
+  g_assert_cmpfloat_with_epsilon(spore_trial_cloud_square(&a, 0, &b, 0, 1), 0.51, 1e-12);
+  present[1] = 0; /* all are: where they would be means nothing */
+  g_assert_cmpfloat(spore_trial_cloud_square(&a, 0, &b, 0, 1), ==, 1);
+  present[0] = 0;
+  g_assert_cmpfloat(spore_trial_cloud_square(&a, 0, &b, 0, 1), ==, 0);
+}
+
 static bool at_once(void *data) {
   ++*(int *)data;
   return true;
@@ -147,6 +165,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/trial/exact", test_exact);
   g_test_add_func("/trial/difference", test_difference);
+  g_test_add_func("/trial/cloud", test_cloud);
   g_test_add_func("/trial/cancelled", test_cancelled);
   g_test_add_func("/trial/memory", test_memory);
   g_test_add_func("/trial/step", test_step);
