@@ -267,24 +267,60 @@ static void say_size(const SporeCli *cli, const char *file, const SporeTriangleM
   if (doubt) spore_cli_say(cli, _("%s: %s across in %s; %s (--unit)\n"), file, length, spore_length_units[unit], doubt);
 }
 
+/* A mesh file that is read: as given, and as it was understood. */
+typedef struct Read {
+  const char *file, *unit, *frame; /* frame NULL: the axes that the file states */
+  int unit_chosen, frame_chosen;
+  GBytes *content;
+} Read;
+
+/* The content, unit and axes of a mesh file; the caller unrefs the content. */
+static gboolean read_content(Read *read, GError **error) {
+  read->unit_chosen = spore_cli_choice("--unit", read->unit ? read->unit : "m", spore_length_units, error);
+  read->frame_chosen = read->frame ? spore_cli_choice("--frame", read->frame, spore_mesh_frames, error) : 0;
+  if (read->unit_chosen < 0 || read->frame_chosen < 0) return FALSE;
+  g_autoptr(GBytes) given = spore_cli_read_file(read->file, _("a mesh"), error);
+  read->content = given ? spore_mesh_whole(read->file, given, error) : NULL;
+  if (!read->content) return FALSE;
+  gsize size = 0;
+  const char *bytes = g_bytes_get_data(read->content, &size);
+  int hint = spore_mesh_frame_hint(bytes, size);
+  if (!read->frame && hint >= 0) read->frame_chosen = hint;
+  return TRUE;
+}
+
+/* Decodes the content. */
+static gboolean decode(SporeCli *cli, const Read *read, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
+                       GError **error) {
+  gsize size = 0;
+  const char *bytes = g_bytes_get_data(read->content, &size);
+  if (!spore_mesh_decode_tagged(read->file, read->file, bytes, size, read->unit_chosen, read->frame_chosen, mesh, parts,
+                                names, spore_cli_progress(cli), error))
+    return FALSE;
+  say_size(cli, read->file, mesh, read->unit_chosen);
+  return TRUE;
+}
+
+gboolean spore_cli_read_parts(SporeCli *cli, const char *file, const char *unit, const char *frame,
+                              SporeTriangleMesh *mesh, guint32 **parts, char ***names, GError **error) {
+  Read read = {.file = file, .unit = unit, .frame = frame};
+  if (!read_content(&read, error)) return FALSE;
+  gboolean done = decode(cli, &read, mesh, parts, names, error);
+  g_bytes_unref(read.content);
+  return done;
+}
+
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error) {
-  int unit_chosen = spore_cli_choice("--unit", unit ? unit : "m", spore_length_units, error);
-  int frame_chosen = frame ? spore_cli_choice("--frame", frame, spore_mesh_frames, error) : 0;
-  if (unit_chosen < 0 || frame_chosen < 0) return FALSE;
-  g_autoptr(GBytes) given = spore_cli_read_file(file, _("a mesh"), error);
-  g_autoptr(GBytes) read = given ? spore_mesh_whole(file, given, error) : NULL;
-  if (!read) return FALSE;
-  gsize size = 0;
-  const char *bytes = g_bytes_get_data(read, &size);
-  int hint = spore_mesh_frame_hint(bytes, size);
-  if (!frame && hint >= 0) frame_chosen = hint;
-  if (!spore_mesh_decode(file, file, bytes, size, unit_chosen, frame_chosen, mesh, spore_cli_progress(cli), error))
-    return FALSE;
-  say_size(cli, file, mesh, unit_chosen);
-  if (content) *content = g_steal_pointer(&read);
-  if (unit_index) *unit_index = unit_chosen;
-  if (frame_index) *frame_index = frame_chosen;
+  Read read = {.file = file, .unit = unit, .frame = frame};
+  g_autofree guint32 *parts = NULL;
+  g_auto(GStrv) names = NULL;
+  if (!read_content(&read, error)) return FALSE;
+  g_autoptr(GBytes) whole = read.content;
+  if (!decode(cli, &read, mesh, &parts, &names, error)) return FALSE;
+  if (content) *content = g_steal_pointer(&whole);
+  if (unit_index) *unit_index = read.unit_chosen;
+  if (frame_index) *frame_index = read.frame_chosen;
   return TRUE;
 }

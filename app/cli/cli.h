@@ -76,6 +76,9 @@ GBytes *spore_cli_read_file(const char *file, const char *expected, GError **err
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error);
+/* The same with the parts of the file, as spore_mesh_decode_tagged gives them. */
+gboolean spore_cli_read_parts(SporeCli *cli, const char *file, const char *unit, const char *frame,
+                              SporeTriangleMesh *mesh, guint32 **parts, char ***names, GError **error);
 /* TRUE unless output and input are the same file, even under different names: writing would destroy the input. */
 gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
 /* As before, and the output can be written: its folder exists and takes files. Checked before work that takes long. */

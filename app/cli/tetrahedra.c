@@ -4,6 +4,7 @@
 #include "app/cli/generate.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "app/cli/tetrahedra_list.h"
+#include "app/cli/tetrahedra_parts.h"
 #include "app/cli/tetrahedra_surroundings.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
@@ -61,6 +62,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
   spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
   spore_cli_number(cli, "crumbs", report->small_components);
+  spore_cli_report_parts(cli, report);
   spore_cli_text(cli, "method", method);
   report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
@@ -74,20 +76,25 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_say(cli, "%s", remarks);
 }
 
+/* wanted: names of parts, NULL: all of the file. */
 static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
-                    const char *output) {
+                    const char *wanted, const char *output) {
   SporeTetrahedraFields fields;
   spore_parameters_set_initial(&asked->table, &fields);
   spore_cli_options_fill(asked, &fields);
-  const SporeTetrahedraOptions options = spore_edit_tetrahedra_options(
+  SporeTetrahedraOptions options = spore_edit_tetrahedra_options(
       &fields, (const SporeGenerateRegion *)(gconstpointer)asked->regions->data, asked->regions->len);
+  g_autofree guint32 *parts = NULL;
+  g_auto(GStrv) names = NULL;
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport figures = {0};
-  gboolean done =
-      spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
-      spore_tetrahedra_from_mesh(file, &surface, &options, &mesh, &figures, spore_cli_progress(cli), &error);
+  gboolean done = spore_cli_read_parts(cli, file, unit, frame, &surface, &parts, &names, &error);
+  done = done && (!wanted || spore_cli_keep_parts(file, wanted, &surface, parts, names, &error));
+  options.parts = parts;
+  options.part_names = (const char *const *)names;
+  done = done && spore_tetrahedra_from_mesh(file, &surface, &options, &mesh, &figures, spore_cli_progress(cli), &error);
   if (done && output) {
     gsize size = 0;
     g_autofree char *text = formatter_of(output)(&mesh, &size);
@@ -194,7 +201,7 @@ static int use_labels(SporeCli *cli, const char *file, GBytes *content, const Sp
 
 /* Meshes a surface or a label map, whichever the file holds. */
 static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
-                        const char *frame, const LabelWish *wish, const char *output) {
+                        const char *frame, const LabelWish *wish, const char *parts, const char *output) {
   GError *error = NULL;
   if (output && !(spore_cli_is_scene(output) ? spore_cli_has_room_for_scene : spore_cli_has_room)(output, file, &error))
     return spore_cli_fail(error);
@@ -210,6 +217,8 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
   g_autofree char *foreign = is_map ? spore_cli_options_foreign(options, &spore_generator_labels) : NULL;
   if (foreign)
     return spore_cli_usage(_("spore tetrahedra: %s is for surfaces; %s is a label map; leave it out"), foreign, file);
+  if (is_map && parts)
+    return spore_cli_usage(_("spore tetrahedra: --parts is for surfaces; %s is a label map; use --labels"), file);
   if (is_map) return use_labels(cli, file, content, options, wish, output);
   if (wish->list)
     return spore_cli_usage(_("spore tetrahedra: --list is for label maps; %s is none; leave it out"), file);
@@ -219,7 +228,7 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
                            output, file);
   if (wish->labels)
     return spore_cli_usage(_("spore tetrahedra: --labels is for label maps; %s is none; leave it out"), file);
-  return generate(cli, file, options, unit, frame, output);
+  return generate(cli, file, options, unit, frame, parts, output);
 }
 
 /* Checks the options and prints its own message. scene: the asset holds the values that are not given. */
@@ -257,6 +266,12 @@ static const SporeReportMember members[] = {
     {"filled_m3", N_("volume of cavities that --fill filled, m^3")},
     {"pieces", N_("that do not hang together")},
     {"pieces_given", N_("the same of the surface; with more of them than that nothing holds one to the other")},
+    {"parts",
+     N_("of the surface, the largest area first, at most 64: name, role (bounds the solid; merged with what it lies "
+        "in; "
+        "inside: left out; cavity; sheet), in (index of the part in which most of what lies inside does, -1: none), "
+        "triangles, holes, open_edges, area_m2, inside_share, least_depth_m, most_depth_m (below the surface of that "
+        "part)")},
     {"crumbs",
      N_("share of the volume that was left out: small pieces that came off where a part is thinner than a cell")},
     {"method", N_("direct, repaired, wrapped or voxels: what the surface needed; labels: of a label map")},
@@ -279,10 +294,10 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
   if (!scene && body)
     return spore_cli_usage(_("spore tetrahedra: --body is for scenes; expected a file F.spore with it; leave it out"));
   if (scene && others)
-    return spore_cli_usage(
-        _("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
-          "none of --unit, --frame, --labels, --list, --surroundings and --output with it; leave them out, or give the "
-          "mesh's file"));
+    return spore_cli_usage(_("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
+                             "none of --unit, --frame, --labels, --parts, --list, --surroundings and --output with it; "
+                             "leave them out, or give the "
+                             "mesh's file"));
   return SPORE_EXIT_DONE;
 }
 
@@ -295,13 +310,16 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
                                         1,
                                         1,
                                         members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *body = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *parts = NULL, *body = NULL;
   LabelWish wish = {0};
   const GOptionEntry entries[] = {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"labels", 'l', 0, G_OPTION_ARG_STRING, &wish.labels,
        N_("Labels wanted of a label map, by number or name (default: all above 0)"), "1,liver,5"},
+      {"parts", 'p', 0, G_OPTION_ARG_STRING, &parts,
+       N_("Parts wanted of a mesh, by the names of its objects or nodes (default: all of them, merged)"),
+       "kidney,ureter"},
       {"list", 0, 0, G_OPTION_ARG_NONE, &wish.list,
        N_("List the labels of a label map, and mesh nothing: name (in the file's own table, or in a file of its name "
           "beside it: .json, .txt, .ctbl, .label; else guessed by its number), volume, size, and whether the edge of "
@@ -325,12 +343,14 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
                               "n=cells s=size t=tolerance c=curvature m=method g=gap", &info, entries, &argc, &argv);
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
   if (status == SPORE_EXIT_DONE)
-    status = check_scene(scene, body, unit || frame || wish.labels || wish.list || wish.surroundings || output);
+    status =
+        check_scene(scene, body, unit || frame || wish.labels || parts || wish.list || wish.surroundings || output);
   if (status == SPORE_EXIT_DONE) status = check(&options, output, scene, &wish);
   if (status == SPORE_EXIT_DONE)
     status = scene ? generate_in(cli, argv[1], body, &options)
-                   : generate_any(cli, argv[1], &options, unit, frame, &wish, output);
+                   : generate_any(cli, argv[1], &options, unit, frame, &wish, parts, output);
   g_free(body);
+  g_free(parts);
   g_free(unit);
   g_free(frame);
   g_free(output);

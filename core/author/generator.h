@@ -34,7 +34,8 @@ typedef struct SporeTetrahedraFields {
   int method; /* index in the table's choices: 0 the first that does it, else SporeTetrahedraMethod + 1 */
   int64_t cells;
   double size, tolerance, curvature, gap; /* size 0: by cells */
-  bool fill;
+  bool fill, hollow;
+  int pieces; /* index in the table's choices: all of them as one solid, the largest alone */
 } SporeTetrahedraFields;
 
 typedef struct SporeCurveFields {

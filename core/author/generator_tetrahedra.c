@@ -8,6 +8,7 @@
 #include "core/scene/schema_tables.h"
 
 static const char *const methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
+static const char *const piece_choices[] = {"merged", "largest", NULL};
 
 static const SporeParameter tetrahedra_parameters[] = {
     NAME(SporeTetrahedraFields, N_("Name by which mechanical units refer to the tetrahedra.")),
@@ -79,6 +80,24 @@ static const SporeParameter tetrahedra_parameters[] = {
      FIELD(SporeTetrahedraFields, fill),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Whether cavities inside are filled.")},
+    {.name = "hollow",
+     .type = SPORE_BOOLEAN,
+     .unit = "",
+     FIELD(SporeTetrahedraFields, hollow),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("Whether a closed piece inside another one, as a chamber in a heart, bounds a cavity; else it is left out, "
+            "and what it encloses is solid.")},
+    {.name = "pieces",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     ANY,
+     .initial = {0},
+     .choices = piece_choices,
+     FIELD(SporeTetrahedraFields, pieces),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Pieces of the mesh, as an organ and its vessels: merged into one solid, or the largest alone with what "
+               "lies inside it.")},
     {.name = "gap",
      .type = SPORE_REAL,
      .unit = "m",
@@ -126,6 +145,8 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                   .tolerance = fields->tolerance,
                                   .curvature = fields->curvature,
                                   .fill = fields->fill,
+                                  .hollow = fields->hollow,
+                                  .largest = fields->pieces == 1,
                                   .gap = fields->gap,
                                   .regions = regions,
                                   .region_count = count};

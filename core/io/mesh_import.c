@@ -155,13 +155,18 @@ static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
   return true;
 }
 
-gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error) {
+/* tags: one a triangle, or NULL. */
+static gboolean tidy(const char *place, SporeTriangleMesh *mesh, guint32 *tags, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  if (spore_triangle_mesh_validate(mesh, &failure) && spore_triangle_mesh_weld(mesh, WELD, &failure) &&
+  if (spore_triangle_mesh_validate(mesh, &failure) && spore_triangle_mesh_weld_tagged(mesh, WELD, tags, &failure) &&
       turn_outward(mesh, &failure))
     return TRUE;
   spore_error_at(&failure, place);
   return spore_error_propagate(&failure, error);
+}
+
+gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error) {
+  return tidy(place, mesh, NULL, error);
 }
 
 /* Decodes a mesh whose text is in its plain form. */
@@ -186,16 +191,36 @@ static gboolean decode(const char *place, const char *file, const void *content,
   return done;
 }
 
-gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
-                           SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
-  if (!place) place = file ? file : "";
+/* Names of all parts, as valid UTF-8. */
+static char **names_of(const Raw *raw) {
+  char **names = g_new0(char *, raw->parts->len + 1);
+  for (guint p = 0; p < raw->parts->len; p++)
+    names[p] = g_utf8_make_valid(g_array_index(raw->parts, SporeImportPart, p).name, -1);
+  return names;
+}
+
+gboolean spore_mesh_decode_tagged(const char *place, const char *file, const void *content, gsize size, int unit,
+                                  int frame, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
+                                  const SporeProgress *progress, GError **error) {
   Raw raw = {0};
-  gboolean done = decode(place, file, content, size, unit, frame, &raw, progress, error) &&
-                  spore_mesh_tidy(place, &raw.mesh, error);
+  gboolean done =
+      decode(place, file, content, size, unit, frame, &raw, progress, error) && tidy(place, &raw.mesh, raw.part, error);
   *mesh = done ? raw.mesh : (SporeTriangleMesh){0};
+  *names = done && raw.parts ? names_of(&raw) : NULL;
+  *parts = done ? g_steal_pointer(&raw.part) : NULL;
   if (done) raw.mesh = (SporeTriangleMesh){0};
   clear_raw(&raw);
   return done;
+}
+
+gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
+                           SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
+  g_autofree guint32 *parts = NULL;
+  g_auto(GStrv) names = NULL;
+  return spore_mesh_decode_tagged(place  ? place
+                                  : file ? file
+                                         : "",
+                                  file, content, size, unit, frame, mesh, &parts, &names, progress, error);
 }
 
 void spore_mesh_part_free(SporeMeshPart *part) {

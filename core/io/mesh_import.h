@@ -23,6 +23,13 @@ extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
 
+/* The same, and of each triangle the part of the file that it came from. *parts: triangle_count numbers, g_free;
+ * *names: of each part, "" where it has none, g_strfreev. Both NULL where the file has no parts. Of triangles that two
+ * parts have alike, the first part has the one that is kept. */
+gboolean spore_mesh_decode_tagged(const char *place, const char *file, const void *content, gsize size, int unit,
+                                  int frame, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
+                                  const SporeProgress *progress, GError **error);
+
 /* The content with the buffers that a glTF text names put into it: regular files in the same folder, of at most 1 GiB
  * together. Other content is returned as it is. g_bytes_unref; NULL with an error. */
 GBytes *spore_mesh_whole(const char *file, GBytes *content, GError **error);

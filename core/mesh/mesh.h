@@ -93,6 +93,8 @@ bool spore_particle_skin(const double *centres, size_t count, double spacing, Sp
  * collapse, exact duplicates (whichever way they turn) and unused vertices. In place; order of what stays is kept.
  * Refused, mesh untouched, when nothing would be left. */
 bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error);
+/* The same; tags (one a triangle; NULL: none) go with the triangles that stay. */
+bool spore_triangle_mesh_weld_tagged(SporeTriangleMesh *mesh, double relative, uint32_t *tags, SporeError *error);
 
 /* Size and faults of a triangle mesh. */
 typedef struct SporeMeshReport {

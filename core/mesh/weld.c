@@ -96,8 +96,8 @@ static bool insert_triangle(const uint32_t *triangles, uint32_t *slots, size_t m
   return true;
 }
 
-/* Moves the triangles that are kept to the front of `triangles`; returns their number. */
-static size_t keep_triangles(const SporeTriangleMesh *mesh, const uint32_t *target, uint32_t *triangles,
+/* Moves the triangles that are kept to the front of `triangles`, and their tags; returns their number. */
+static size_t keep_triangles(const SporeTriangleMesh *mesh, const uint32_t *target, uint32_t *triangles, uint32_t *tags,
                              uint32_t *slots, size_t mask) {
   size_t kept = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -105,7 +105,9 @@ static size_t keep_triangles(const SporeTriangleMesh *mesh, const uint32_t *targ
              c = target[mesh->triangles[3 * t + 2]];
     if (a == b || b == c || c == a) continue;
     triangles[3 * kept] = a, triangles[3 * kept + 1] = b, triangles[3 * kept + 2] = c;
-    kept += insert_triangle(triangles, slots, mask, (uint32_t)kept);
+    if (!insert_triangle(triangles, slots, mask, (uint32_t)kept)) continue;
+    if (tags) tags[kept] = tags[t];
+    kept++;
   }
   return kept;
 }
@@ -125,6 +127,10 @@ static void drop_unused_vertices(SporeTriangleMesh *mesh, uint32_t *number) {
 }
 
 bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error) {
+  return spore_triangle_mesh_weld_tagged(mesh, relative, NULL, error);
+}
+
+bool spore_triangle_mesh_weld_tagged(SporeTriangleMesh *mesh, double relative, uint32_t *tags, SporeError *error) {
   assert(relative >= 0);
   if (!mesh->vertex_count || !mesh->triangle_count) return true;
   size_t slots = 16;
@@ -132,7 +138,7 @@ bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeErr
   uint32_t *target = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count), *set = SPORE_NEW_ARRAY(uint32_t, slots);
   uint32_t *triangles = SPORE_NEW_ARRAY(uint32_t, 3 * mesh->triangle_count);
   bool done = target && set && triangles && find_targets(mesh, relative, target);
-  size_t kept = done ? keep_triangles(mesh, target, triangles, set, slots - 1) : 0;
+  size_t kept = done ? keep_triangles(mesh, target, triangles, tags, set, slots - 1) : 0;
   if (!done) {
     spore_mesh_no_memory(error);
   } else if (!kept) {

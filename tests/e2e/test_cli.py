@@ -1573,6 +1573,33 @@ def tetrahedra_command():
 
 
 @check
+def tetrahedra_of_parts():
+    """tetrahedra tells what becomes of each part of a file by its name, and takes the parts that are asked for."""
+    if "assimp" not in FEATURES: return
+    organ, vessel, chamber = shapes.sphere(), shapes.sphere(radius=0.02), shapes.sphere(radius=0.015)
+    text, before = "", 1
+    for name, (corners, triangles), along in ("organ", organ, 0), ("vessel", vessel, 0.04), ("chamber", chamber, 0):
+        text += f"o {name}\n" + "".join("v %.9g %.9g %.9g\n" % (x + along, y, z) for x, y, z in corners)
+        text += "".join("f %d %d %d\n" % tuple(before + corner for corner in triangle) for triangle in triangles)
+        before += len(corners)
+    file("parts.obj", text)
+    ask = "tetrahedra", "parts.obj", "--cells", 300, "--method", "voxels"
+    answer = report(*ask)
+    roles = {part["name"]: part["role"] for part in answer["parts"]}
+    assert roles == {"organ": "merged", "vessel": "merged", "chamber": "inside"}, roles
+    inside = next(part for part in answer["parts"] if part["name"] == "chamber")
+    assert answer["parts"][inside["in"]]["name"] == "organ" and 0.010 < inside["least_depth_m"] < 0.0155, inside
+    hollow = report(*ask, "--hollow")
+    assert "cavity" in [part["role"] for part in hollow["parts"] if part["name"] == "chamber"]
+    assert hollow["volume"]["result"] < answer["volume"]["result"] - 1e-5
+    alone = report(*ask, "--parts", "organ")
+    assert [(part["name"], part["role"]) for part in alone["parts"]] == [("organ", "bounds")], alone["parts"]
+    assert [part["name"] for part in report(*ask, "--pieces", "largest")["parts"]] == ["organ", "chamber"]
+    assert "chamber: " in spore(*ask).stdout and "chamber: " not in spore(*ask, "--parts", "organ, vessel").stdout
+    refuses(*ask, "--parts", "spleen", says=["spleen", "organ, vessel, chamber"])
+
+
+@check
 def bad_meshes():
     """Each bad mesh gets one clear line and leaves no file."""
     ball = shapes.sphere()

@@ -78,9 +78,196 @@ static void test_small_components(void) {
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
+/* A ball of 30 mm, then a part that is appended to it as part 1, "vessel". The caller clears the surface and parts. */
+static SporeTriangleMesh organ_with(SporeTriangleMesh *part, uint32_t **parts) {
+  SporeTriangleMesh organ = {0};
+  shape_ball(&organ, 0.03, 10);
+  size_t own = organ.triangle_count;
+  shape_append(&organ, part);
+  spore_triangle_mesh_clear(part);
+  *parts = SPORE_NEW_ARRAY(uint32_t, organ.triangle_count);
+  g_assert_nonnull(*parts);
+  for (size_t t = own; t < organ.triangle_count; t++) (*parts)[t] = 1;
+  return organ;
+}
+
+/* Fills the two and checks the remarks of the second: they hold `words` (NULL: nothing on pieces is said). */
+static Result fill_two(SporeTriangleMesh *part, SporeTetrahedraOptions options, const char *words) {
+  static const char *const names[] = {"organ", "vessel"};
+  uint32_t *parts;
+  SporeTriangleMesh organ = organ_with(part, &parts);
+  options.method = SPORE_TETRAHEDRA_VOXELS;
+  options.cells = 300;
+  options.tolerance = 0.05;
+  options.parts = parts;
+  options.part_names = names;
+  Result result = fill(&organ, options, "voxels");
+  spore_free(parts);
+  char *remarks = spore_tetrahedra_remarks(&result.mesh, &options, &result.report);
+  g_test_message("%s", remarks);
+  g_assert_true(strstr(remarks, "organ: ") != NULL && strstr(remarks, words) != NULL);
+  g_free(remarks);
+  return result;
+}
+
+/* Drops the triangles beyond z, so that the shape is open there. */
+static void cut_above(SporeTriangleMesh *mesh, double z) {
+  size_t kept = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *c = mesh->triangles + 3 * t;
+    if (mesh->vertices[3 * c[0] + 2] + mesh->vertices[3 * c[1] + 2] + mesh->vertices[3 * c[2] + 2] > 3 * z) continue;
+    memmove(mesh->triangles + 3 * kept++, c, 3 * sizeof *c);
+  }
+  mesh->triangle_count = kept;
+}
+
+#define VOLUME(radius) (4 / 3. * 3.14159265 * (radius) * (radius) * (radius))
+
+/* A vessel that enters the organ, with an open end: one solid, and its hole is told. The same beside the organ and
+ * closed: neither merged nor holed. */
+static void test_merged(void) {
+  SporeTriangleMesh vessel = {0};
+  shape_capsule(&vessel, 0.008, 0.03, 5);
+  shape_move(&vessel, 0, 0, 0.05);
+  cut_above(&vessel, 0.055); /* at a row of 40 vertices */
+  Result result = fill_two(&vessel, (SporeTetrahedraOptions){0}, "merged with what it lies in");
+  const SporeTetrahedraPiece *piece = result.report.piece + 1;
+  g_assert_cmpuint(result.report.piece_count, ==, 2);
+  g_assert_cmpstr(piece->name, ==, "vessel");
+  g_assert_cmpint(piece->role, ==, SPORE_PIECE_MERGED);
+  g_assert_cmpint(piece->in, ==, 0);
+  g_assert_cmpuint(piece->holes, ==, 1);
+  g_assert_cmpuint(piece->open_edges, ==, 40);
+  g_assert_cmpuint(result.report.pieces, ==, 1);
+  g_assert_cmpint(result.report.piece[0].holes, ==, 0);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_capsule(&vessel, 0.008, 0.03, 5);
+  shape_move(&vessel, 0.05, 0, 0);
+  result = fill_two(&vessel, (SporeTetrahedraOptions){0}, "vessel: ");
+  g_assert_cmpint(result.report.piece[1].role, ==, SPORE_PIECE_BOUNDS);
+  g_assert_cmpuint(result.report.piece[1].holes, ==, 0);
+  g_assert_cmpuint(result.report.pieces, ==, 2);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* A second wall half a millimetre inside is left out, and told with its distance; turned round it bounds a cavity, and
+ * so it does where hollow is asked for. */
+static void test_inside(void) {
+  SporeTriangleMesh wall = {0};
+  shape_ball(&wall, 0.0295, 10);
+  Result result = fill_two(&wall, (SporeTetrahedraOptions){0},
+                           "vessel: 1200 triangles, 59 x 59 x 59 mm; a wall inside "
+                           "organ, 0.5 to 0.5 mm");
+  g_assert_cmpint(result.report.piece[1].role, ==, SPORE_PIECE_INSIDE);
+  g_assert_cmpfloat(result.report.piece[1].depth[0], >, 4e-4);
+  g_assert_cmpfloat(result.report.piece[1].depth[1], <, 5.5e-4);
+  g_assert_cmpfloat(fabs(result.report.volume / VOLUME(0.03) - 1), <, 0.05);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_ball(&wall, 0.018, 10);
+  shape_turn(&wall);
+  result = fill_two(&wall, (SporeTetrahedraOptions){0}, "bounds a cavity in organ");
+  g_assert_cmpint(result.report.piece[1].role, ==, SPORE_PIECE_CAVITY);
+  g_assert_cmpfloat(fabs(result.report.volume / (VOLUME(0.03) - VOLUME(0.018)) - 1), <, 0.08);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_ball(&wall, 0.018, 10);
+  result = fill_two(&wall, (SporeTetrahedraOptions){.hollow = true}, "bounds a cavity in organ");
+  g_assert_cmpfloat(fabs(result.report.volume / (VOLUME(0.03) - VOLUME(0.018)) - 1), <, 0.08);
+  g_assert_cmpfloat(result.report.inner_share, ==, 0);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* Hollow leaves alone what is not wholly inside, and what lies in a cavity is solid again. */
+static void test_hollow_nests(void) {
+  SporeTriangleMesh other = {0}, core = {0};
+  shape_ball(&other, 0.02, 10);
+  shape_move(&other, 0.025, 0, 0);
+  Result result = fill_two(&other, (SporeTetrahedraOptions){.hollow = true}, "merged with what it lies in");
+  g_assert_cmpfloat(result.report.volume, >, VOLUME(0.03));
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_ball(&other, 0.02, 10);
+  shape_ball(&core, 0.01, 6);
+  shape_append(&other, &core);
+  spore_triangle_mesh_clear(&core);
+  result = fill_two(&other, (SporeTetrahedraOptions){.hollow = true},
+                    "vessel (1): 1200 triangles, 40 x 40 x 40 mm; "
+                    "bounds a cavity in organ");
+  g_assert_cmpfloat(fabs(result.report.volume / (VOLUME(0.03) - VOLUME(0.02) + VOLUME(0.01)) - 1), <, 0.08);
+  g_assert_cmpuint(result.report.pieces, ==, 2);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* The largest piece alone, with the cavity in it; the vessel goes, and that is told. */
+static void test_largest(void) {
+  SporeTriangleMesh vessel = {0}, cavity = {0};
+  shape_capsule(&vessel, 0.008, 0.03, 5);
+  shape_move(&vessel, 0, 0, 0.04);
+  shape_ball(&cavity, 0.015, 8);
+  shape_turn(&cavity);
+  shape_append(&vessel, &cavity);
+  spore_triangle_mesh_clear(&cavity);
+  Result result =
+      fill_two(&vessel, (SporeTetrahedraOptions){.largest = true}, "pieces left out, as asked: 1; the largest");
+  g_assert_cmpuint(result.report.unwanted, ==, 1);
+  g_assert_cmpuint(result.report.piece_count, ==, 2);
+  g_assert_cmpint(result.report.piece[1].role, ==, SPORE_PIECE_CAVITY);
+  g_assert_cmpfloat(fabs(result.report.volume / (VOLUME(0.03) - VOLUME(0.015)) - 1), <, 0.08);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_capsule(&vessel, 0.008, 0.03, 5);
+  shape_move(&vessel, 0, 0, 0.04);
+  result = fill_two(&vessel, (SporeTetrahedraOptions){0}, "merged");
+  g_assert_cmpuint(result.report.unwanted, ==, 0);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* An open sheet beside the organ encloses nothing. A lone closed organ has nothing to tell. */
+static void test_sheet(void) {
+  SporeTriangleMesh sheet = {0};
+  shape_box(&sheet, (double[3]){0.04, 0.04, -0.01}, (double[3]){0.06, 0.06, 0.02}, 4);
+  cut_above(&sheet, -0.0095);
+  Result result = fill_two(&sheet, (SporeTetrahedraOptions){0}, "a sheet that encloses nothing: left out");
+  g_assert_cmpint(result.report.piece[1].role, ==, SPORE_PIECE_SHEET);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  SporeTriangleMesh lone = {0};
+  SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_VOXELS, .cells = 300, .tolerance = 0.1};
+  shape_ball(&lone, 0.03, 8);
+  result = fill(&lone, options, "voxels");
+  char *remarks = spore_tetrahedra_remarks(&result.mesh, &options, &result.report);
+  g_assert_cmpstr(remarks, ==, "");
+  g_free(remarks);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* Where pieces lie in one another, the chain does not try what cannot make one solid of them. */
+static void test_mixed(void) {
+  SporeTriangleMesh organ = {0}, vessel = {0};
+  shape_ball(&organ, 0.03, 8);
+  shape_capsule(&vessel, 0.008, 0.03, 6);
+  shape_move(&vessel, 0, 0, 0.04);
+  shape_append(&organ, &vessel);
+  spore_triangle_mesh_clear(&vessel);
+  SporeTetrahedraOptions options = {CHAIN, .cells = 500, .tolerance = 0.06};
+  Result result = fill(&organ, options, "wrapped");
+  const char *refused = result.report.refused[SPORE_TETRAHEDRA_REPAIRED];
+  g_assert_nonnull(strstr(refused, SPORE_HAVE_CGAL ? "lie in one another" : "CGAL"));
+  check_cells(&result, 500);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tetrahedra/open-shapes", test_open_shapes);
   g_test_add_func("/tetrahedra/small components", test_small_components);
+  g_test_add_func("/tetrahedra/merged", test_merged);
+  g_test_add_func("/tetrahedra/inside", test_inside);
+  g_test_add_func("/tetrahedra/hollow-nests", test_hollow_nests);
+  g_test_add_func("/tetrahedra/largest", test_largest);
+  g_test_add_func("/tetrahedra/sheet", test_sheet);
+  g_test_add_func("/tetrahedra/mixed", test_mixed);
   return g_test_run();
 }

@@ -223,6 +223,34 @@ static void test_tree(void) {
   g_ptr_array_unref(parts);
 }
 
+/* The joined mesh keeps of each triangle its part. Both parts of the tree lie in the same place: the first has what
+ * both have. */
+static void test_tagged(void) {
+  GError *error = NULL;
+  g_autofree char *text = tree_text();
+  g_autofree guint32 *parts = NULL;
+  g_auto(GStrv) names = NULL;
+  SporeTriangleMesh mesh;
+  g_assert_true(spore_mesh_decode_tagged("tree.gltf", "tree.gltf", text, strlen(text), 0, 0, &mesh, &parts, &names,
+                                         NULL, &error));
+  g_assert_no_error(error);
+  g_assert_cmpuint(g_strv_length(names), ==, 2);
+  g_assert_cmpstr(names[0], ==, "cortex");
+  g_assert_cmpstr(names[1], ==, "vein");
+  g_assert_cmpuint(mesh.triangle_count, ==, 4);
+  for (gsize t = 0; t < 4; t++) g_assert_cmpuint(parts[t], ==, 0);
+  spore_triangle_mesh_clear(&mesh);
+
+  const char *off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  g_autofree guint32 *none = NULL;
+  char **no_names;
+  g_assert_true(
+      spore_mesh_decode_tagged("a.off", "a.off", off, strlen(off), 0, 0, &mesh, &none, &no_names, NULL, &error));
+  g_assert_null(none);
+  g_assert_null(no_names);
+  spore_triangle_mesh_clear(&mesh);
+}
+
 #define CORPUS SPORE_SOURCE "/tests/fuzz/corpus/vtk/"
 
 /* The same tetrahedron in each form: legacy by lists and by offsets, XML as text, base64, and compressed bytes. */
@@ -293,6 +321,7 @@ int main(int argc, char **argv) {
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/encodings", test_encodings);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/blank-lines", test_blank_lines);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/tree", test_tree);
+  g_test_add_func("/mesh-origins/tagged", test_tagged);
   g_test_add_func("/mesh-origins/vtk-forms", test_vtk_forms);
   g_test_add_func("/mesh-origins/vtk-faces", test_vtk_faces);
   g_test_add_func("/mesh-origins/vtk-refused", test_vtk_refused);

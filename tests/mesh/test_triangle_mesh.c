@@ -112,7 +112,10 @@ static void test_weld_drops(void) {
   g_assert_true(spore_triangle_mesh_allocate(&mesh, 6, 4, NULL));
   memcpy(mesh.vertices, vertices, sizeof vertices);
   memcpy(mesh.triangles, triangles, sizeof triangles);
-  g_assert_true(spore_triangle_mesh_weld(&mesh, 1e-6, NULL));
+  uint32_t tags[] = {7, 8, 9, 6};
+  g_assert_true(spore_triangle_mesh_weld_tagged(&mesh, 1e-6, tags, NULL));
+  g_assert_cmpuint(tags[0], ==, 7);
+  g_assert_cmpuint(tags[1], ==, 6);
   g_assert_cmpuint(mesh.vertex_count, ==, 4);
   g_assert_cmpuint(mesh.triangle_count, ==, 2);
   const uint32_t expected[] = {0, 1, 2, 1, 3, 2};

@@ -59,7 +59,7 @@ static uint32_t root_of(uint32_t *joined, uint32_t i) {
   return i;
 }
 
-bool spore_tetrahedra_fill(SporeTriangleMesh *surface, double *filled, SporeError *error) {
+bool spore_tetrahedra_fill(SporeTriangleMesh *surface, uint32_t *tags, double *filled, SporeError *error) {
   uint32_t *joined = SPORE_NEW_ARRAY(uint32_t, surface->vertex_count);
   double *volume = SPORE_NEW_ARRAY(double, surface->vertex_count);
   bool done = (joined && volume) || spore_mesh_no_memory(error);
@@ -82,11 +82,12 @@ bool spore_tetrahedra_fill(SporeTriangleMesh *surface, double *filled, SporeErro
     const uint32_t *corner = surface->triangles + 3 * t;
     if (volume[root_of(joined, corner[0])] < 0) continue;
     for (int k = 0; k < 3; k++) surface->triangles[3 * kept + (size_t)k] = corner[k];
+    if (tags) tags[kept] = tags[t];
     kept++;
   }
   if (done && kept && kept < surface->triangle_count) {
     surface->triangle_count = kept;
-    done = spore_triangle_mesh_weld(surface, LEAST_WELD, error); /* drops vertices without triangles */
+    done = spore_triangle_mesh_weld_tagged(surface, LEAST_WELD, tags, error); /* drops vertices without triangles */
   }
   spore_free(joined);
   spore_free(volume);

@@ -26,12 +26,17 @@ typedef struct SporeTetrahedraWork {
   SporeTetrahedraOptions options; /* lengths in diagonals; tolerance set */
   SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
   SporeTriangleMesh surface; /* the given surface, welded and oriented consistently */
+  uint32_t *parts;           /* of each triangle the part of its file; NULL: of one */
   SporeBvh *tree;            /* of the surface */
   SporeBvh *closed;          /* of the surface and the faces that close its holes; NULL: no such faces known */
   bool open;                 /* the surface has holes: the end of the solid there, and its volume, are estimates */
   double volume, area;       /* of the solid and of its boundary */
   double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside the solid */
   size_t bounding_count, inner_count;
+  SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* of the surface */
+  size_t unwanted;                                     /* pieces that were left out as asked */
+  size_t piece_count, pieces;                          /* told of, and all */
+  bool mixed;                                          /* one of these lies inside another one, all or in part */
   SporeTetrahedraThin thin;
   bool prepared;                   /* a surface could be prepared for the mesher */
   double filled, filled_by_method; /* volume of filled cavities: of the given surface, and of the surface or lattice
@@ -55,6 +60,15 @@ static inline bool spore_tetrahedra_progress(const SporeTetrahedraWork *work, do
 /* The solid: where the winding number of the surface is over one half. False with *error: no memory, the surface
  * encloses nothing, cancelled. */
 bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error);
+/* Fills piece, piece_count, pieces and mixed. */
+bool spore_tetrahedra_look_at_pieces(SporeTetrahedraWork *work, SporeError *error);
+/* Turns closed pieces outward or inward, so that one inside another one bounds a cavity, and one inside a cavity is
+ * solid. Pieces that come turned inward stay so. Looks at the SPORE_TETRAHEDRA_PIECES largest pieces. */
+bool spore_tetrahedra_hollow(SporeTetrahedraWork *work, SporeError *error);
+/* Keeps the piece of the largest area, and the pieces that lie wholly inside it. Sets work->unwanted. */
+bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error);
+/* Appends a line about each piece of the report, where there are several or one has holes. */
+void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraReport *report);
 /* Largest distances between the mesh and the points that bound the solid, both ways, and from the inner points. */
 bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
                                 double *inner, double *area, SporeError *error);
@@ -79,9 +93,9 @@ gboolean spore_tetrahedra_refine(SporeTetrahedraWork *work, const SporeTriangleM
                                  SporeTetrahedraFinish finish, size_t most_vertices, SporeTetrahedralMesh *mesh,
                                  GError **error);
 
-/* Drops the walls of cavities, and their vertices, from a consistently oriented surface. *filled: volume of the
- * cavities. */
-bool spore_tetrahedra_fill(SporeTriangleMesh *surface, double *filled, SporeError *error);
+/* Drops the walls of cavities, and their vertices, from a consistently oriented surface. tags: one a triangle, which go
+ * with those that stay; NULL: none. *filled: volume of the cavities. */
+bool spore_tetrahedra_fill(SporeTriangleMesh *surface, uint32_t *tags, double *filled, SporeError *error);
 
 /* A mesh in a prepared surface, of the wanted number or size of cells. */
 gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,

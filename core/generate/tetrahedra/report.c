@@ -2,6 +2,7 @@
 
 #include <glib/gi18n.h>
 #include <math.h>
+#include <string.h>
 
 #include "core/generate/tetrahedra/private.h"
 
@@ -9,7 +10,7 @@
 #define MANY 1.1        /* times as many cells as wanted */
 
 /* Remarks on pieces of the mesh that are not connected, where the surface is. */
-static void say_pieces(GString *text, const SporeTetrahedraReport *report) {
+static void say_apart(GString *text, const SporeTetrahedraReport *report) {
   if (report->small_components > 0)
     g_string_append_printf(text,
                            _("left out: small components that hung together with nothing, %.2g %% of the volume\n"),
@@ -28,8 +29,8 @@ static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
     g_string_append_printf(
         text,
         _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
-          "they are left out, and what they enclose is filled, asked for or not; to keep a lumen, turn the triangles "
-          "of its wall round in the mesh, or give the organ a wall by making a surface of it\n"),
+          "they are left out, and what they enclose is filled; to keep what a closed piece encloses as a cavity, ask "
+          "for hollow; for an open lumen, give the organ a wall by making a surface of it\n"),
         100 * report->inner_share, 100 * report->inner_distance);
   if (report->thickened > 0)
     g_string_append_printf(
@@ -64,10 +65,18 @@ static void say_missed(GString *text, const SporeTetrahedralMesh *mesh, const Sp
 char *spore_tetrahedra_remarks(const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
                                const SporeTetrahedraReport *report) {
   GString *text = g_string_new(NULL);
-  say_pieces(text, report);
+  spore_tetrahedra_say_pieces(text, report);
+  say_apart(text, report);
   say_left_out(text, report);
   say_missed(text, mesh, options, report);
   return g_string_free(text, FALSE);
+}
+
+static void report_pieces(const SporeTetrahedraWork *work, SporeTetrahedraReport *report) {
+  report->piece_count = work->piece_count;
+  report->piece_total = work->pieces;
+  report->unwanted = work->unwanted;
+  memcpy(report->piece, work->piece, sizeof report->piece);
 }
 
 /* Shares of the surface that the solid does not show as given. */
@@ -86,6 +95,7 @@ bool spore_tetrahedra_measure(SporeTetrahedraWork *work, const SporeTetrahedralM
   if (!spore_tetrahedra_progress(work, 0, _("measuring the distance"), error)) return false;
   spore_tetrahedral_mesh_quality(mesh, &report->quality);
   report_left_out(work, report);
+  report_pieces(work, report);
   return spore_tetrahedra_distances(work, mesh, &report->hausdorff, &report->inner_distance, &report->area, error);
 }
 
@@ -98,6 +108,12 @@ void spore_tetrahedra_to_metres(SporeTetrahedraReport *report, const SporeTetrah
   report->filled = (work->filled + work->filled_by_method) * pow(diagonal, 3);
   report->area *= diagonal * diagonal;
   report->thickness *= diagonal;
+  for (size_t i = 0; i < report->piece_count; i++) {
+    SporeTetrahedraPiece *piece = report->piece + i;
+    for (int k = 0; k < 3; k++) piece->size[k] *= diagonal;
+    piece->depth[0] *= diagonal, piece->depth[1] *= diagonal;
+    piece->area *= diagonal * diagonal;
+  }
   report->area_given = work->area * diagonal * diagonal;
   report->volume_change = report->volume / report->volume_given - 1;
   report->area_change = report->area / report->area_given - 1;

@@ -90,11 +90,19 @@ static bool measure_volume(SporeTetrahedraWork *work, const SporeMeshReport *giv
   return true;
 }
 
+/* Chooses and turns the pieces of the surface as the options say. report: of what remains. */
+static bool arrange(SporeTetrahedraWork *work, SporeMeshReport *report, SporeError *error) {
+  SporeTriangleMesh *surface = &work->surface;
+  return spore_triangle_mesh_weld_tagged(surface, WELD, work->parts, error) &&
+         spore_triangle_mesh_orient(surface, error) &&
+         (!work->options.largest || spore_tetrahedra_keep_largest(work, error)) &&
+         (!work->options.hollow || spore_tetrahedra_hollow(work, error)) &&
+         spore_triangle_mesh_report(surface, report, error);
+}
+
 bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
   SporeMeshReport report;
-  if (!spore_triangle_mesh_weld(&work->surface, WELD, error) || !spore_triangle_mesh_orient(&work->surface, error) ||
-      !spore_triangle_mesh_report(&work->surface, &report, error))
-    return false;
+  if (!arrange(work, &report, error)) return false;
   /* Open sheets keep their orientation. A surface that is inside out as a whole is turned over. */
   if (report.volume < 0)
     for (size_t t = 0; t < work->surface.triangle_count; t++) {
@@ -102,7 +110,7 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
       corner[1] = corner[2], corner[2] = kept;
     }
   work->open = report.boundary_edges > 0;
-  if (work->options.fill && !spore_tetrahedra_fill(&work->surface, &work->filled, error)) return false;
+  if (work->options.fill && !spore_tetrahedra_fill(&work->surface, work->parts, &work->filled, error)) return false;
   work->tree = spore_bvh_create(&work->surface, error);
   if (!work->tree || !sort_samples(work, error) || !measure_volume(work, &report, error)) return false;
   if (work->volume > LEAST_VOLUME && work->bounding_count) return true;

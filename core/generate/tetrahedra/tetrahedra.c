@@ -18,10 +18,11 @@
 #define MOST_FIRST 200000.0  /* most triangles of the first wrap, or of the wrap that closes openings */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
-#define MOST_GIVEN 200000 /* triangles: with more, CGAL takes minutes, a lattice seconds */
-#define SURE 0.9          /* of the tolerance */
-#define BETTER 0.95       /* of the mesher's misfit: a lattice must be below this to replace the mesher's cells */
-#define MOST_CHANGE 0.1   /* of the volume */
+#define MOST_GIVEN 200000  /* triangles: with more, CGAL takes minutes, a lattice seconds */
+#define SURE 0.9           /* of the tolerance */
+#define BETTER 0.95        /* of the mesher's misfit: a lattice must be below this to replace the mesher's cells */
+#define MOST_CHANGE 0.1    /* of the volume */
+#define MOST_WRAPS_MIXED 1 /* of pieces that lie in one another: closer wraps take long, and a lattice seconds */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
@@ -100,6 +101,11 @@ static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surfac
   }
   work->options.regions = work->regions;
   if (!spore_triangle_mesh_copy(&work->surface, surface, error)) return false;
+  if (options->parts) {
+    work->parts = SPORE_NEW_ARRAY(uint32_t, surface->triangle_count);
+    if (!work->parts) return spore_generate_no_memory(error);
+    memcpy(work->parts, options->parts, surface->triangle_count * sizeof *work->parts);
+  }
   for (gsize i = 0; i < 3 * surface->vertex_count; i++)
     work->surface.vertices[i] = (surface->vertices[i] - centre[i % 3]) / report->diagonal;
   return true;
@@ -107,6 +113,7 @@ static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surfac
 
 static void clear(SporeTetrahedraWork *work) {
   spore_triangle_mesh_clear(&work->surface);
+  spore_free(work->parts);
   spore_bvh_free(work->tree);
   spore_bvh_free(work->closed);
   spore_tetrahedra_clear_thin(&work->thin);
@@ -169,8 +176,9 @@ static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GErr
   double alpha = by_gap ? work->options.gap : usual_alpha(work);
   if (!wrap_at(work, alpha, MOST_FIRST, surface, error)) return FALSE;
   if (by_gap) return TRUE;
+  const int most = work->mixed && work->options.method == SPORE_TETRAHEDRA_METHODS ? MOST_WRAPS_MIXED : MOST_WRAPS;
   double distance = distance_to(work, surface);
-  for (int i = 1; i < MOST_WRAPS && distance >= WRAPPED_NEAR * work->options.tolerance; i++) {
+  for (int i = 1; i < most && distance >= WRAPPED_NEAR * work->options.tolerance; i++) {
     SporeTriangleMesh closer = {0};
     GError *refusal = NULL;
     alpha *= 0.5;
@@ -200,6 +208,10 @@ static gboolean prepare(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
           "ask for this method"),
         work->surface.triangle_count, MOST_GIVEN);
   if (method == SPORE_TETRAHEDRA_WRAPPED) return wrap(work, surface, error);
+  if (work->options.method == SPORE_TETRAHEDRA_METHODS && work->mixed)
+    return fail(error,
+                _("pieces of the surface lie in one another, which this method does not make one solid of; leave "
+                  "them out, or ask for this method"));
   if (work->options.gap > 0) return fail(error, _("openings are to be closed, which wrapping alone does"));
   SporeTetrahedraTask task = method == SPORE_TETRAHEDRA_DIRECT ? SPORE_TETRAHEDRA_CHECK : SPORE_TETRAHEDRA_REPAIR;
   const double share = work->share;
@@ -230,7 +242,7 @@ static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   work->fraction = from + 0.1 * share;
   work->share = 0.9 * share;
   work->prepared = work->prepared || done;
-  if (done && work->options.fill && !spore_tetrahedra_fill(&surface, &work->filled_by_method, &failure))
+  if (done && work->options.fill && !spore_tetrahedra_fill(&surface, NULL, &work->filled_by_method, &failure))
     done = spore_error_propagate(&failure, error);
   done = done && spore_tetrahedra_fit(work, &surface, mesh, error);
   work->fraction = from, work->share = share;
@@ -392,6 +404,7 @@ static gboolean generate(SporeTetrahedraWork *work, const char *place, SporeTetr
   SporeError failure = SPORE_ERROR_INIT;
   work->share = LOOKING;
   gboolean done = spore_tetrahedra_solid(work, &failure);
+  done = done && spore_tetrahedra_look_at_pieces(work, &failure);
   if (done) {
     work->fraction = LOOKING, work->share = 1 - 2 * LOOKING;
     if (!check_count(place, work, error)) return FALSE;

@@ -19,6 +19,7 @@ typedef enum SporeTetrahedraMethod {
 extern const char *const spore_tetrahedra_method_names[];
 
 #define SPORE_TETRAHEDRA_CELLS 5000000u /* at most */
+#define SPORE_TETRAHEDRA_PIECES 64      /* pieces of the surface of which a report tells, at most */
 
 /* The usual choice: method SPORE_TETRAHEDRA_METHODS, cells or size set, all else zero. */
 typedef struct SporeTetrahedraOptions {
@@ -30,10 +31,36 @@ typedef struct SporeTetrahedraOptions {
   double curvature; /* degrees, 0 (off) or 5 to 90: the largest turn of the surface along one edge; edges are shortened
                        for this down to a quarter of the usual size */
   bool fill;        /* cavities inside are filled */
+  bool hollow;      /* a closed piece inside another one bounds a cavity; else what it encloses is solid */
+  bool largest;     /* the piece of the largest area is meshed, with what lies inside it; else all are, as one solid */
   double gap;       /* m: openings narrower than this are closed by wrapping; 0: wrapping uses about half an edge */
   const SporeGenerateRegion *regions;
   size_t region_count;
+  const uint32_t *parts;         /* of each triangle the part of its file; NULL: of one */
+  const char *const *part_names; /* of each part; NULL: they have none */
 } SporeTetrahedraOptions;
+
+/* What a piece of the surface is to the solid, at SPORE_PIECE_SAMPLES points of it. */
+typedef enum SporePieceRole {
+  SPORE_PIECE_BOUNDS, /* it bounds the solid */
+  SPORE_PIECE_MERGED, /* more than a fiftieth of it bounds the solid, and more than a fiftieth lies inside */
+  SPORE_PIECE_INSIDE, /* it lies inside the solid: a second wall, or a part inside another one; it is left out */
+  SPORE_PIECE_CAVITY, /* closed and turned inward: it bounds a cavity */
+  SPORE_PIECE_SHEET,  /* there is no solid on either side of more than half of it */
+} SporePieceRole;
+/* "bounds", "merged", "inside", "cavity", "sheet", then NULL. */
+extern const char *const spore_piece_role_names[];
+
+/* Triangles that hang together by edges and are of one part of the file. */
+typedef struct SporeTetrahedraPiece {
+  char name[48]; /* of its part; "": it has none */
+  SporePieceRole role;
+  int in; /* piece of the report in which most of what lies inside does; -1: there is none of the report */
+  size_t triangles, holes, open_edges;
+  double size[3], area; /* m along the axes, m^2 */
+  double inside_share;  /* share of the area that lies inside the solid */
+  double depth[2];      /* least and largest distance from the surface of the piece `in`, m, of what lies inside */
+} SporeTetrahedraPiece;
 
 typedef struct SporeTetrahedraReport {
   SporeTetrahedraMethod method;
@@ -50,6 +77,9 @@ typedef struct SporeTetrahedraReport {
       volume_change; /* m^3, m^3, fraction; given: of the solid, where the winding number is over one half */
   double area, area_given, area_change; /* of the boundaries, m^2, m^2, fraction */
   size_t pieces, pieces_given; /* connected pieces: of the cells, by shared vertices; of the surface, by shared edges */
+  size_t unwanted;             /* pieces that were left out by options.largest */
+  size_t piece_count, piece_total;                     /* told of (those of the largest area), and all */
+  SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* piece_count, the largest area first */
   double small_components; /* share of the volume: small pieces left out, whose piece of the surface has a larger piece
                               of cells */
   double filled;           /* m^3, with options.fill: volume of the filled cavities */

@@ -1,0 +1,267 @@
+/* What each piece of the surface is to the solid: it bounds the solid, lies inside, or encloses nothing. */
+#include "core/generate/tetrahedra/shells.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/generate/tetrahedra/private.h"
+#include "core/mesh/common.h"
+
+#define BESIDE 1e-4 /* of the diagonal: distance from the surface at which its two sides are tested */
+#define FEW 0.02    /* share of a piece's points that is let pass */
+
+const char *const spore_piece_role_names[] = {"bounds", "merged", "inside", "cavity", "sheet", NULL};
+
+/* A piece while it is looked at. */
+typedef struct Look {
+  const SporePiece *piece;
+  SporePieceShell shell;
+  bool inner[SPORE_PIECE_SAMPLES]; /* the solid is on both sides of the point */
+  size_t inner_count;
+} Look;
+
+static int by_area(const void *a, const void *b) {
+  const SporePiece *one = *(const SporePiece *const *)a, *other = *(const SporePiece *const *)b;
+  if (one->area != other->area) return one->area > other->area ? -1 : 1;
+  return one < other ? -1 : 1;
+}
+
+/* Classifies the points of a piece by the solid on their two sides. */
+static SporePieceRole role_of(const SporeTetrahedraWork *work, Look *look) {
+  const size_t few = (size_t)(FEW * SPORE_PIECE_SAMPLES);
+  size_t none = 0;
+  for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
+    SporeVec3 p = spore_vec3_load(look->shell.points + 3 * i), n = look->shell.normals[i];
+    bool behind = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n)) > 0.5;
+    bool before = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n)) > 0.5;
+    look->inner[i] = behind && before;
+    look->inner_count += look->inner[i];
+    none += !behind && !before;
+  }
+  if (2 * none > SPORE_PIECE_SAMPLES) return SPORE_PIECE_SHEET;
+  if (look->inner_count + few >= SPORE_PIECE_SAMPLES) return SPORE_PIECE_INSIDE;
+  if (look->inner_count > few) return SPORE_PIECE_MERGED;
+  return look->piece->closed && look->piece->volume < 0 ? SPORE_PIECE_CAVITY : SPORE_PIECE_BOUNDS;
+}
+
+/* Finds the piece around what lies inside: of those that hold nearly the most points, the one of the least area. */
+static void find_around(const Look *looks, size_t count, size_t own, SporeTetrahedraPiece *told) {
+  const Look *look = looks + own;
+  const bool all = told->role == SPORE_PIECE_CAVITY;
+  size_t most = 0;
+  for (size_t other = 0; other < count; other++) {
+    size_t held = 0;
+    if (other == own) continue;
+    for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++)
+      if (all || look->inner[i])
+        held += fabs(spore_bvh_winding(looks[other].shell.tree, spore_vec3_load(look->shell.points + 3 * i))) > 0.5;
+    if (!held || held + (size_t)(FEW * SPORE_PIECE_SAMPLES) < most) continue;
+    told->in = (int)other;
+    most = held > most ? held : most;
+  }
+  if (told->in < 0) return;
+  told->depth[0] = HUGE_VAL;
+  for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
+    if (!all && !look->inner[i]) continue;
+    double depth =
+        spore_bvh_distance(looks[told->in].shell.tree, spore_vec3_load(look->shell.points + 3 * i), NULL, NULL);
+    told->depth[0] = fmin(told->depth[0], depth);
+    told->depth[1] = fmax(told->depth[1], depth);
+  }
+}
+
+static void tell(const SporeTetrahedraWork *work, Look *look, SporeTetrahedraPiece *told) {
+  const SporePiece *piece = look->piece;
+  *told = (SporeTetrahedraPiece){.in = -1,
+                                 .triangles = piece->triangles,
+                                 .holes = piece->holes,
+                                 .open_edges = piece->open_edges,
+                                 .area = piece->area,
+                                 .role = role_of(work, look)};
+  for (int k = 0; k < 3; k++) told->size[k] = piece->upper[k] - piece->lower[k];
+  told->inside_share = (double)look->inner_count / SPORE_PIECE_SAMPLES;
+  const char *end = told->name;
+  if (work->options.part_names) g_strlcpy(told->name, work->options.part_names[piece->part], sizeof told->name);
+  if (!g_utf8_validate(told->name, -1, &end)) told->name[end - told->name] = '\0'; /* cut within a letter */
+}
+
+static bool look_at(SporeTetrahedraWork *work, Look *looks, SporeError *error) {
+  const size_t count = work->piece_count;
+  for (size_t i = 0; i < count; i++) {
+    if (!spore_tetrahedra_progress(work, (double)i / (double)count, _("looking at the pieces"), error)) return false;
+    tell(work, looks + i, work->piece + i);
+  }
+  for (size_t i = 0; i < count; i++) {
+    const SporePieceRole role = work->piece[i].role;
+    if (role == SPORE_PIECE_BOUNDS || role == SPORE_PIECE_SHEET) continue;
+    if (!spore_tetrahedra_progress(work, 1, _("looking at the pieces"), error)) return false;
+    find_around(looks, count, i, work->piece + i);
+    work->mixed = work->mixed || (role != SPORE_PIECE_CAVITY && work->piece[i].in >= 0);
+  }
+  return true;
+}
+
+/* The largest pieces of the surface, each by itself. */
+typedef struct Looks {
+  SporePieces pieces;
+  Look *look; /* count */
+  size_t count;
+} Looks;
+
+static void clear_looks(Looks *looks) {
+  for (size_t i = 0; looks->look && i < looks->count; i++) spore_piece_shell_clear(&looks->look[i].shell);
+  spore_free(looks->look);
+  spore_pieces_clear(&looks->pieces);
+}
+
+static bool open_shells(const SporeTetrahedraWork *work, Looks *looks, SporeError *error) {
+  for (size_t i = 0; i < looks->count; i++)
+    if (!spore_tetrahedra_progress(work, 0, _("looking at the pieces"), error) ||
+        !spore_piece_shell(&looks->look[i].shell, &work->surface, &looks->pieces,
+                           (size_t)(looks->look[i].piece - looks->pieces.pieces), error))
+      return false;
+  return true;
+}
+
+/* parts: as of spore_pieces_find. False: no memory or cancelled; *looks can then only be cleared. */
+static bool open_looks(const SporeTetrahedraWork *work, const uint32_t *parts, Looks *looks, SporeError *error) {
+  *looks = (Looks){0};
+  if (!spore_pieces_find(&looks->pieces, &work->surface, parts, error)) return false;
+  const size_t all = looks->pieces.count;
+  const SporePiece **order = SPORE_NEW_ARRAY(const SporePiece *, all);
+  looks->count = MIN(all, SPORE_TETRAHEDRA_PIECES);
+  looks->look = SPORE_NEW_ARRAY(Look, looks->count);
+  bool done = (order && looks->look) || spore_mesh_no_memory(error);
+  for (size_t i = 0; done && i < all; i++) order[i] = looks->pieces.pieces + i;
+  if (done) qsort(order, all, sizeof *order, by_area);
+  for (size_t i = 0; done && i < looks->count; i++) looks->look[i].piece = order[i];
+  spore_free(order);
+  return done && open_shells(work, looks, error);
+}
+
+bool spore_tetrahedra_look_at_pieces(SporeTetrahedraWork *work, SporeError *error) {
+  Looks looks;
+  bool done = open_looks(work, work->parts, &looks, error);
+  work->pieces = looks.pieces.count;
+  work->piece_count = looks.count;
+  done = done && look_at(work, looks.look, error);
+  clear_looks(&looks);
+  return done;
+}
+
+/* Whether the piece lies wholly inside the other one, which is closed. */
+static bool is_within(const Look *look, const Look *other) {
+  return other->piece->closed && spore_piece_fits(look->piece, other->piece) &&
+         spore_piece_points_in(&look->shell, &other->shell) == SPORE_PIECE_SAMPLES;
+}
+
+/* Turns the triangles of the marked pieces round. */
+static void turn(SporeTriangleMesh *surface, const uint32_t *of, const bool *marked) {
+  for (size_t t = 0; t < surface->triangle_count; t++) {
+    uint32_t *corner = surface->triangles + 3 * t, kept = corner[1];
+    if (marked[of[t]]) corner[1] = corner[2], corner[2] = kept;
+  }
+}
+
+bool spore_tetrahedra_hollow(SporeTetrahedraWork *work, SporeError *error) {
+  Looks looks;
+  bool done = open_looks(work, NULL, &looks, error);
+  bool *marked = done ? SPORE_NEW_ARRAY(bool, looks.pieces.count) : NULL;
+  if (done && !marked) done = spore_mesh_no_memory(error);
+  for (size_t i = 0; done && i < looks.count; i++) {
+    size_t around = 0;
+    if (!looks.look[i].piece->closed || looks.look[i].piece->volume < 0) continue;
+    for (size_t k = 0; k < looks.count; k++) around += k != i && is_within(looks.look + i, looks.look + k);
+    marked[looks.look[i].piece - looks.pieces.pieces] = around % 2 == 1;
+    done = spore_tetrahedra_progress(work, 0, _("looking at the pieces"), error);
+  }
+  if (done) turn(&work->surface, looks.pieces.of, marked);
+  spore_free(marked);
+  clear_looks(&looks);
+  return done;
+}
+
+/* Keeps the triangles of the marked pieces. */
+static bool keep(SporeTetrahedraWork *work, const uint32_t *of, const bool *marked, SporeError *error) {
+  SporeTriangleMesh *surface = &work->surface;
+  size_t kept = 0;
+  for (size_t t = 0; t < surface->triangle_count; t++) {
+    if (!marked[of[t]]) continue;
+    memmove(surface->triangles + 3 * kept, surface->triangles + 3 * t, 3 * sizeof *surface->triangles);
+    if (work->parts) work->parts[kept] = work->parts[t];
+    kept++;
+  }
+  surface->triangle_count = kept;
+  return spore_triangle_mesh_weld_tagged(surface, 0, work->parts, error); /* drops vertices without triangles */
+}
+
+bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error) {
+  Looks looks;
+  bool done = open_looks(work, NULL, &looks, error);
+  bool *marked = done ? SPORE_NEW_ARRAY(bool, looks.pieces.count) : NULL;
+  if (done && !marked) done = spore_mesh_no_memory(error);
+  if (done) {
+    for (size_t i = 0; i < looks.count; i++)
+      marked[looks.look[i].piece - looks.pieces.pieces] = i == 0 || is_within(looks.look + i, looks.look);
+    for (size_t i = 0; i < looks.pieces.count; i++) work->unwanted += !marked[i];
+    done = keep(work, looks.pieces.of, marked, error);
+  }
+  spore_free(marked);
+  clear_looks(&looks);
+  return done;
+}
+
+/* What to call a piece: by the name of its part, with a number where several pieces have the same name. */
+static char *called(const SporeTetrahedraReport *report, int number) {
+  const char *name = report->piece[number].name;
+  int alike = 0, before = 0;
+  for (int i = 0; i < (int)report->piece_count; i++) {
+    if (strcmp(report->piece[i].name, name) != 0) continue;
+    alike++;
+    before += i <= number;
+  }
+  if (!*name) return g_strdup_printf(_("piece %d"), number + 1);
+  return alike > 1 ? g_strdup_printf("%s (%d)", name, before) : g_strdup(name);
+}
+
+static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
+  g_autofree char *in = piece->in >= 0 ? called(report, piece->in) : g_strdup(_("others"));
+  const double least = 1e3 * piece->depth[0], most = 1e3 * piece->depth[1];
+  switch (piece->role) {
+  case SPORE_PIECE_BOUNDS:
+    return g_strdup(_("bounds the solid"));
+  case SPORE_PIECE_MERGED:
+    return g_strdup_printf(_("merged with what it lies in: %.0f %% of it, most of that in %s"),
+                           100 * piece->inside_share, in);
+  case SPORE_PIECE_INSIDE:
+    if (piece->in < 0) return g_strdup(_("a wall inside the solid: left out"));
+    return g_strdup_printf(_("a wall inside %s, %.2g to %.2g mm from its surface: left out"), in, least, most);
+  case SPORE_PIECE_CAVITY:
+    if (piece->in < 0) return g_strdup(_("bounds a cavity"));
+    return g_strdup_printf(_("bounds a cavity in %s, %.2g to %.2g mm from its surface"), in, least, most);
+  default:
+    return g_strdup(_("a sheet that encloses nothing: left out"));
+  }
+}
+
+void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraReport *report) {
+  if (report->unwanted)
+    g_string_append_printf(text, _("pieces left out, as asked: %zu; the largest one is kept, and what lies in it\n"),
+                           report->unwanted);
+  if (report->piece_count < 2 && !report->piece[0].holes) return;
+  for (size_t i = 0; i < report->piece_count; i++) {
+    const SporeTetrahedraPiece *piece = report->piece + i;
+    g_autofree char *name = called(report, (int)i), *role = role_text(report, piece);
+    g_string_append_printf(text, _("%s: %zu triangles, %.3g x %.3g x %.3g mm; %s"), name, piece->triangles,
+                           1e3 * piece->size[0], 1e3 * piece->size[1], 1e3 * piece->size[2], role);
+    if (piece->holes && piece->role != SPORE_PIECE_SHEET && piece->role != SPORE_PIECE_INSIDE)
+      g_string_append_printf(text, _("; holes that are closed: %zu, of %zu open edges"), piece->holes,
+                             piece->open_edges);
+    g_string_append_c(text, '\n');
+  }
+  if (report->piece_total > report->piece_count)
+    g_string_append_printf(text, _("%zu smaller pieces are not listed\n"), report->piece_total - report->piece_count);
+}
