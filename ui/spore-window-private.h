@@ -19,7 +19,8 @@
 
 struct _SporeWindow {
   GtkApplicationWindow parent;
-  GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
+  GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text,
+      *hold_bar, *hold_text, *hold_button;
   GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *generator_panel, *middle, *bottom,
       *tabs, *log, *hint, *job_box, *job_label, *job_bar, *renderer;
 
@@ -41,6 +42,7 @@ struct _SporeWindow {
   gint64 look_time;
   gboolean framed_apart; /* the view has moved to a candidate that belongs to no body */
   gboolean made_room;    /* the bottom was made taller for a study */
+  GArray *loose;         /* of guint: ids of the bodies that fall unless they are held */
   gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
 

@@ -132,7 +132,7 @@ static const char *hint_for(SporeWindow *self) {
   if (spore_player_is_playing(self->player))
     return _("Choose Probe: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
   if (!spore_player_get_session(self->player))
-    return _("Click selects, middle button turns, wheel zooms, F frames; F5 plays");
+    return _("Click selects, a drag beside the organs turns, wheel zooms, F frames; F5 plays");
   return _("Paused: F5 goes on, F6 makes one step, Shift+F5 goes back to the start");
 }
 

@@ -1,6 +1,7 @@
 /* The window itself: its template, its messages to the user, autosaving, what is dropped on it, and its end. */
 #include <glib/gi18n.h>
 
+#include "core/author/edits.h"
 #include "core/scene/check.h"
 #include "ui/spore-window-private.h"
 
@@ -28,6 +29,50 @@ void spore_window_offer_recovery(SporeWindow *self) {
   gtk_widget_show(self->recovery_bar);
 }
 
+/* Bodies that fall. */
+
+static SporeObject *loose_body(SporeWindow *self, guint index) {
+  return spore_document_by_id(spore_editor_document_get(self->document), g_array_index(self->loose, guint, index));
+}
+
+/* Offers to hold what would fall out of sight. An offer that was closed comes back when something else would fall. */
+static void offer_to_hold(SporeWindow *self, const GPtrArray *diagnostics) {
+  guint before = self->loose->len;
+  g_array_set_size(self->loose, 0);
+  for (guint i = 0; i < diagnostics->len; i++) {
+    const SporeDiagnostic *diagnostic = diagnostics->pdata[i];
+    if (diagnostic->fix == SPORE_FIX_HOLD) g_array_append_val(self->loose, diagnostic->object);
+  }
+  guint count = self->loose->len;
+  const SporeObject *only = count == 1 ? loose_body(self, 0) : NULL;
+  g_autofree char *text =
+      only ? g_strdup_printf(_("Nothing holds “%s”: when it plays, it falls"), spore_object_name(only))
+           : g_strdup_printf(ngettext("Nothing holds %u body: when it plays, it falls",
+                                      "Nothing holds %u bodies: when it plays, they fall", count),
+                             count);
+  gtk_label_set_text(GTK_LABEL(self->hold_text), text);
+  gtk_button_set_label(GTK_BUTTON(self->hold_button), ngettext("Hold it", "Hold them", count));
+  if (count == 0) gtk_widget_hide(self->hold_bar);
+  else if (count > before) gtk_widget_show(self->hold_bar);
+}
+
+static gboolean hold_all(SporeWindow *self, SporeDocument *document, GError **error) {
+  for (guint i = 0; i < self->loose->len; i++) {
+    SporeObject *body = loose_body(self, i);
+    if (body && !spore_edit_add_pin(document, body, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+static void hold_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_autoptr(GError) error = NULL;
+  gtk_widget_hide(self->hold_bar);
+  if (response != GTK_RESPONSE_ACCEPT) return;
+  spore_document_begin(document, _("Hold"));
+  if (!spore_edit_finish(document, hold_all(self, document, &error))) spore_window_failed(self, error);
+}
+
 static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, SporeWindow *self) {
   guint count = 0;
   for (guint i = 0; i < diagnostics->len; i++)
@@ -35,6 +80,7 @@ static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, Sp
   g_autofree char *title = count ? g_strdup_printf(_("Problems (%u)"), count) : g_strdup(_("Problems"));
   gtk_container_child_set(GTK_CONTAINER(self->tabs), self->problems, "title", title, NULL);
   spore_outliner_set_problems(SPORE_OUTLINER(self->outliner), diagnostics);
+  offer_to_hold(self, diagnostics);
 }
 
 /* What the simulation had to mend. */
@@ -94,6 +140,7 @@ static void spore_window_dispose(GObject *object) {
   g_clear_pointer(&self->recovery, spore_recovery_free);
   g_clear_pointer(&self->leftover, spore_leftover_free);
   g_clear_pointer(&self->scenes, g_free);
+  g_clear_pointer(&self->loose, g_array_unref);
   G_OBJECT_CLASS(spore_window_parent_class)->dispose(object);
 }
 
@@ -105,6 +152,9 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message);
   gtk_widget_class_bind_template_child(widget, SporeWindow, recovery_bar);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, hold_bar);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, hold_text);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, hold_button);
   gtk_widget_class_bind_template_child(widget, SporeWindow, recovery_text);
   gtk_widget_class_bind_template_child(widget, SporeWindow, outliner);
   gtk_widget_class_bind_template_child(widget, SporeWindow, viewport);
@@ -143,10 +193,12 @@ static void spore_window_class_init(SporeWindowClass *class) {
   gtk_widget_class_bind_template_callback(widget, files_dropped);
   gtk_widget_class_bind_template_callback(widget, message_closed);
   gtk_widget_class_bind_template_callback(widget, recovery_answered);
+  gtk_widget_class_bind_template_callback(widget, hold_answered);
   gtk_widget_class_bind_template_callback(widget, problems_checked);
 }
 
 static void spore_window_init(SporeWindow *self) {
+  self->loose = g_array_new(FALSE, FALSE, sizeof(guint));
   self->fresh = TRUE;
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));

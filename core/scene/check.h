@@ -6,8 +6,14 @@
 #include "core/scene/document.h"
 
 typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSeverity;
+/* What can be done about a diagnostic without asking. */
+typedef enum SporeFix {
+  SPORE_FIX_NONE,
+  SPORE_FIX_HOLD /* pin the body: spore_edit_add_pin */
+} SporeFix;
 typedef struct SporeDiagnostic {
   SporeSeverity severity;
+  SporeFix fix;
   guint32 object;                 /* object's id; 0: the whole scene */
   char *place, *message, *remedy; /* place: FILE:LINE:COLUMN or object path; texts translated */
 } SporeDiagnostic;

@@ -6,6 +6,7 @@
 
 #include "core/scene/check_private.h"
 #include "core/scene/compile.h"
+#include "core/scene/fidelity.h"
 #include "core/scene/schema_fields.h"
 #include "core/scene/work_estimate.h"
 
@@ -137,17 +138,29 @@ static double drop_to(const Start *start, const Ball *falling, const Ball *under
 }
 
 /* Air holds smoke up. */
-static gboolean is_smoke(const SporeObject *body) {
+static const SporeModelParticles *particles_of(const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  if (!mechanical || spore_object_child_count(mechanical) == 0) return FALSE;
-  const SporeModelParticles *particles = spore_object_type(spore_object_child(mechanical, 0))->model->particles;
+  if (!mechanical || spore_object_child_count(mechanical) == 0) return NULL;
+  return spore_object_type(spore_object_child(mechanical, 0))->model->particles;
+}
+
+static gboolean is_smoke(const SporeObject *body) {
+  const SporeModelParticles *particles = particles_of(body);
   return particles && particles->puff;
+}
+
+/* Whether an effect moves the body: it does not fall. */
+static gboolean is_effect(const Start *start, const SporeObject *body) {
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
+  const SporeModelParticles *particles = particles_of(body);
+  return (!particles || particles->carry) &&
+         spore_fidelity_state(start->check->document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
 }
 
 /* Whether the body falls: physics moves it, and no link holds it. */
 static gboolean is_loose(const Start *start, guint body) {
   const SporeObject *object = start->bodies->pdata[body];
-  return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) &&
+  return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) && !is_effect(start, object) &&
          !spore_check_is_used(start->check, object, SPORE_HOLDING_LINKS);
 }
 
@@ -192,6 +205,7 @@ static void check_loose(const Start *start) {
                     _("pin it, tie it with a spring, or put an unmovable body under it"),
                     _("\"%s\" is held by nothing, and nothing that could carry it lies under it: it falls"),
                     spore_object_name(body));
+    if (!particles_of(body)) spore_check_offer(start->check, SPORE_FIX_HOLD);
   }
 }
 

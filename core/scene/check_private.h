@@ -21,6 +21,8 @@ typedef struct SporeCheck {
  * follow; the remedy is used as it is. */
 void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const char *remedy,
                      const char *message_format, ...) G_GNUC_PRINTF(5, 6);
+/* Says that the last diagnostic can be fixed so. */
+void spore_check_offer(SporeCheck *check, SporeFix fix);
 /* Adds the message of another room, "PLACE: what is wrong; what was expected; what to do", as a diagnostic about the
  * object. */
 void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error);

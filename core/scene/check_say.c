@@ -33,6 +33,11 @@ void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObjec
   va_end(arguments);
 }
 
+void spore_check_offer(SporeCheck *check, SporeFix fix) {
+  g_assert(check->found->len > 0);
+  ((SporeDiagnostic *)check->found->pdata[check->found->len - 1])->fix = fix;
+}
+
 /* The object that a message is about, found by the place at the message's start ("FILE:LINE:COLUMN: " or "PATH: "), or
  * NULL. */
 static const SporeObject *object_at(const SporeObject *object, const char *message) {

@@ -15,6 +15,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "ui/document/hand-edit.h"
+#include "ui/document/number-text.h"
 #include "ui/document/labels.h"
 #include "ui/document/mapping-report.h"
 #include "core/author/mesh_edits.h"
@@ -710,6 +711,22 @@ static void test_labels(Fixture *fixture, gconstpointer data) {
   if (missing->len) g_error("po/labels.c lacks these; add them:\n%s", missing->str);
 }
 
+/* Numbers as they are typed, with the decimal mark of the language, and shown with it. */
+static void test_number_text(void) {
+  static const struct {
+    const char *typed, *mark, *read;
+  } cases[] = {{"0,003", ",", "0.003"},         {" 0.003 ", ",", "0.003"}, {"1,5 0 2", ",", "1.5 0 2"},
+               {"1, 2, 3", ",", "1  2  3"},     {"1,2,3", ",", "1 2 3"},   {"1.5,2,3", ",", "1.5 2 3"},
+               {"1,5, 2, 3", ",", "1.5  2  3"}, {"1,000", ".", "1,000"},   {"1.5, 2, 3", ".", "1.5  2  3"},
+               {"1,2,3", ".", "1 2 3"},         {"3,", ",", "3,"},         {"-1,5e-3", ",", "-1.5e-3"}};
+  for (guint i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *read = spore_number_text_read(cases[i].typed, cases[i].mark);
+    g_assert_cmpstr(read, ==, cases[i].read);
+  }
+  g_autofree char *shown = spore_number_text_show("0.003 1 2.5", ",");
+  g_assert_cmpstr(shown, ==, "0,003 1 2,5");
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -750,6 +767,7 @@ int main(int argc, char **argv) {
     g_autofree char *path = g_strconcat("/author/", tests[i].name, NULL);
     g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
   }
+  g_test_add_func("/author/number-text", test_number_text);
   int status = g_test_run();
   g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;
   g_autofree char *spore = state ? g_build_filename(state, "spore", NULL) : NULL;

@@ -1340,6 +1340,58 @@ def every_model_in_turn():
 
 
 @check
+def what_nothing_holds_is_offered_to_be_held():
+    """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not."""
+    path = write_scene("loose", "<rigid_body/>")
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("select", "s", "bodies/floor")
+        editor.act("delete")
+        editor.find("label", "Nothing holds “ball”: when it plays, it falls")
+        editor.act("undo")
+        ui.wait(lambda: not editor.look("label", "Nothing holds"), "the offer to go, since the floor is back")
+        editor.act("redo")
+        editor.press(editor.find("push button", "^Hold it$"))
+        ui.wait(lambda: "<pin " in saved(editor, "held"), "the pin")
+        ui.wait(lambda: not editor.look("label", "Nothing holds"), "the offer to go")
+        editor.act("undo")
+        assert "<pin " not in saved(editor, "let_go")
+
+
+@check
+def a_drag_beside_turns_the_view():
+    """left drag beside the organs turns the view and keeps the selection; a click there selects nothing."""
+    folder_ = folder("scenes") / "aside"
+    folder_.mkdir(exist_ok=True)
+    (folder_ / "ball.off").write_bytes(ball().read_bytes())
+    balls = "".join(f'<body name="{name}" role="unmovable" position="{x} 0 0"><visual mesh="ball"/></body>' for name, x in (("left", -0.3), ("right", 0.3)))
+    path = folder_ / "scene.spore"
+    path.write_text(f'<spore version="1.0"><assets><mesh name="ball" file="ball.off"/></assets><bodies>{balls}</bodies></spore>\n')
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("left"), "the scene")
+        editor.act("view", "s", "front")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+
+        def click(at):
+            editor.mouse("mousemove", *at, "click", 1)
+
+        def selects(at):
+            click(beside)
+            ui.wait(lambda: not editor.enabled("delete"), "nothing to be selected")
+            click(at)
+            editor.mouse("sleep", 0.2)
+            return editor.enabled("delete")
+
+        middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height - 60)
+        rights = [(middle[0] + dx, middle[1]) for dx in range(20, width // 2 - 10, 12)]
+        at = next(place for place in rights if selects(place))
+        editor.mouse("mousemove", *beside, "mousedown", 1, "mousemove_relative", "--", 40, 0, "mousemove_relative", "--", 40, 0,
+                     "mousemove_relative", "--", 40, 0, "sleep", 0.2, "mouseup", 1)
+        assert editor.enabled("delete"), "the selection stays"
+        assert not selects(at), "the view has turned"
+
+
+@check
 def an_effect_takes_the_place_of_physics():
     """while a ball falls, an effect takes its place and physics comes back: the run goes on, without a restart."""
     with start(write_scene("effect", "<rigid_body/>")) as editor:

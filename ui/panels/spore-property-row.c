@@ -6,6 +6,7 @@
 
 #include "core/author/edits.h"
 #include "ui/document/measured-facts.h"
+#include "ui/document/number-text.h"
 #include "ui/panels/report.h"
 
 #define NUMBER_CHARS 9
@@ -81,12 +82,16 @@ static void reset_clicked(GtkButton *button, SporePropertyRow *self) { change(se
 
 /* Editors: one kind of widget a type. */
 
-static void entry_commit(SporePropertyRow *self) {
-  const char *text = gtk_entry_get_text(GTK_ENTRY(self->editor));
-  g_autofree char *trimmed = g_strstrip(g_strdup(text));
+static gboolean is_number(SporePropertyRow *self) {
   SporeParameterType type = parameter_of(self)->type;
-  gboolean emptied = *trimmed == '\0' && (type == SPORE_REAL || type == SPORE_INTEGER || type == SPORE_VECTOR);
-  change(self, emptied ? NULL : trimmed);
+  return type == SPORE_REAL || type == SPORE_INTEGER || type == SPORE_VECTOR;
+}
+
+static void entry_commit(SporePropertyRow *self) {
+  const char *typed = gtk_entry_get_text(GTK_ENTRY(self->editor));
+  g_autofree char *text =
+      is_number(self) ? spore_number_text_read(typed, spore_number_mark()) : g_strstrip(g_strdup(typed));
+  change(self, *text == '\0' && is_number(self) ? NULL : text);
 }
 
 static gboolean entry_left(GtkWidget *entry, GdkEvent *event, SporePropertyRow *self) {
@@ -215,7 +220,8 @@ static void show_value(SporePropertyRow *self, const char *text) {
     colour.blue = g_ascii_strtod(end, &end);
     gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(self->editor), &colour);
   } else {
-    gtk_entry_set_text(GTK_ENTRY(self->editor), text);
+    g_autofree char *shown = is_number(self) ? spore_number_text_show(text, spore_number_mark()) : g_strdup(text);
+    gtk_entry_set_text(GTK_ENTRY(self->editor), shown);
   }
 }
 

@@ -194,7 +194,9 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
   guint32 body = pick(self, event->x, event->y, &point);
   if (body && spore_viewport_edit_place(self, body, point)) return;
-  if (body || !spore_viewport_edits_regions(self)) spore_editor_document_select(self->document, body);
+  if (body) spore_editor_document_select(self->document, body);
+  self->beside = !body;
+  self->pressed_x = event->x, self->pressed_y = event->y;
 }
 
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
@@ -218,6 +220,9 @@ gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, S
     if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK)) squeeze_probe(self, FALSE);
     return GDK_EVENT_STOP;
   }
+  if (self->beside && self->document && !spore_viewport_edits_regions(self))
+    spore_editor_document_select(self->document, 0);
+  self->beside = FALSE;
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -227,6 +232,11 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   double dx = event->x - self->last_x, dy = event->y - self->last_y;
   self->last_x = event->x;
   self->last_y = event->y;
+  if (self->beside &&
+      gtk_drag_check_threshold(area, (int)self->pressed_x, (int)self->pressed_y, (int)event->x, (int)event->y)) {
+    self->beside = FALSE;
+    begin_camera(self, event->state & GDK_SHIFT_MASK);
+  }
   switch (self->drag) {
   case DRAG_NONE:
     return GDK_EVENT_PROPAGATE;

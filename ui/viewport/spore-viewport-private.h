@@ -43,6 +43,10 @@ struct _SporeViewport {
   gboolean framed, waiting;
 
   SporeDrag drag;
+  /* The left button was pressed beside all bodies, there, and has hardly moved: a drag turns the view, and a click
+   * selects nothing. */
+  gboolean beside;
+  double pressed_x, pressed_y;
   double last_x, last_y;
   SporeCamera camera_before;
   guint32 body;                       /* of the world: held by the probe or pull drag */

@@ -1,0 +1,13 @@
+/* Numbers as people type and read them: with the decimal mark of their language. */
+#ifndef SPORE_UI_DOCUMENT_NUMBER_TEXT_H
+#define SPORE_UI_DOCUMENT_NUMBER_TEXT_H
+
+/* The decimal mark of the locale. */
+const char *spore_number_mark(void);
+/* The text as a scene's file has it. Where the mark is a comma, "0,003" and "1,5 0 2" are numbers with decimals, and a
+ * point is taken as well; commas may also part the numbers of a vector: "1, 2, 3", "1.5,2,3". g_free. */
+char *spore_number_text_read(const char *typed, const char *mark);
+/* A text of a scene's file, with that mark. g_free. */
+char *spore_number_text_show(const char *text, const char *mark);
+
+#endif
