@@ -19,6 +19,7 @@
 typedef struct Intake {
   const SporeImportOptions *options;
   SporeImport *import;
+  guint file_count;
   SporeProgressShare step; /* the one at work */
 } Intake;
 
@@ -39,6 +40,7 @@ static void free_body(SporeImportBody *body) {
 void spore_import_free(SporeImport *import) {
   g_ptr_array_unref(import->bodies);
   g_ptr_array_unref(import->files);
+  g_ptr_array_unref(import->left_out);
   g_free(import);
 }
 
@@ -224,6 +226,25 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   return add_labels(intake, file, bytes, size, error);
 }
 
+/* One file's bodies, or a word on why it is left out. The last error stands where no file can be read. */
+static gboolean take_file(Intake *intake, const char *path, GError **error) {
+  SporeImport *import = intake->import;
+  guint files = import->files->len, bodies = import->bodies->len;
+  g_autoptr(GError) fault = NULL;
+  if (add_file(intake, path, &fault)) return TRUE;
+  gboolean of_the_file =
+      g_error_matches(fault, SPORE_ERROR, SPORE_ERROR_FILE) || g_error_matches(fault, SPORE_ERROR, SPORE_ERROR_INPUT);
+  gboolean last = import->left_out->len + files == intake->file_count - 1, none = last && files == 0;
+  if (!intake->options->lenient || !of_the_file || none) {
+    g_propagate_error(error, g_steal_pointer(&fault));
+    return FALSE;
+  }
+  g_ptr_array_set_size(import->bodies, (gint)bodies);
+  g_ptr_array_set_size(import->files, (gint)files);
+  g_ptr_array_add(import->left_out, g_strdup(fault->message));
+  return TRUE;
+}
+
 /* Joins all bodies into the first. */
 static gboolean merge(SporeImport *import, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
@@ -260,12 +281,13 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
   g_autoptr(SporeImport) import = g_new0(SporeImport, 1);
   import->files = g_ptr_array_new_with_free_func((GDestroyNotify)free_file);
   import->bodies = g_ptr_array_new_with_free_func((GDestroyNotify)free_body);
+  import->left_out = g_ptr_array_new_with_free_func(g_free);
   Intake intake = {.options = options, .import = import, .step.whole = progress};
-  guint count = g_strv_length((char **)files);
+  guint count = intake.file_count = g_strv_length((char **)files);
   for (guint i = 0; i < count; i++) {
     intake.step.done = 0.5 * i / count;
     intake.step.share = 0.5 / count;
-    if (!add_file(&intake, files[i], error)) return NULL;
+    if (!take_file(&intake, files[i], error)) return NULL;
   }
   if (options->division == SPORE_IMPORT_MERGED && !merge(import, error)) return NULL;
   for (guint i = 0; i < import->bodies->len; i++) {

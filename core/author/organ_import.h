@@ -19,6 +19,7 @@ typedef struct SporeImportOptions {
   int unit;  /* index into spore_length_units; -1: guessed of each file, by its size; metres where glTF says so */
   int frame; /* into spore_mesh_frames; -1: what the file says, else Y_UP */
   SporeImportDivision division;
+  gboolean lenient; /* a file that cannot be read is left out, and said; where none can, that is an error */
   struct {
     bool wanted;
     double argument;
@@ -51,8 +52,9 @@ typedef struct SporeImportBody {
 } SporeImportBody;
 
 typedef struct SporeImport {
-  GPtrArray *files;  /* of SporeImportFile * */
-  GPtrArray *bodies; /* of SporeImportBody * */
+  GPtrArray *files;    /* of SporeImportFile * */
+  GPtrArray *bodies;   /* of SporeImportBody * */
+  GPtrArray *left_out; /* of char *: why a file was left out */
 } SporeImport;
 
 #define SPORE_IMPORT_BODIES_MAXIMUM 500u

@@ -102,6 +102,8 @@ static void show_warnings(SporeImportDialog *self) {
     g_autofree char *remark = spore_import_remark(file), *base = g_path_get_basename(file->file);
     if (remark) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", base, remark);
   }
+  for (guint i = 0; i < self->import->left_out->len; i++)
+    g_string_append_printf(text, _("%sLeft out: %s"), text->len ? "\n" : "", (char *)self->import->left_out->pdata[i]);
   gtk_label_set_text(GTK_LABEL(self->warning), text->str);
   gtk_widget_set_visible(self->warning, text->len > 0);
   g_string_free(text, TRUE);
@@ -176,7 +178,7 @@ static void read_options(SporeImportDialog *self, SporeImportOptions *options) {
 
 static gboolean start_reading(gpointer data) {
   SporeImportDialog *self = data;
-  SporeImportOptions options = {0};
+  SporeImportOptions options = {.lenient = TRUE};
   self->settling = 0;
   read_options(self, &options);
   gtk_label_set_text(GTK_LABEL(self->state), _("Reading…"));
