@@ -223,6 +223,24 @@ static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data)
   spore_viewport_frame(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
 }
 
+/* The selected body is hidden, or shown alone. */
+static void act_hide(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_editor_document_selected_body(self->document);
+  gboolean alone = g_str_equal(g_action_get_name(G_ACTION(action)), "isolate");
+  if (!body) return;
+  (alone ? spore_viewport_isolate : spore_viewport_hide)(SPORE_VIEWPORT(self->viewport), spore_object_id(body));
+  spore_window_update_actions(self);
+  spore_window_show_hint(self);
+}
+
+static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  spore_viewport_show_all(SPORE_VIEWPORT(self->viewport));
+  spore_window_update_actions(self);
+  spore_window_show_hint(self);
+}
+
 static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) {
   spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
 }
@@ -312,6 +330,9 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"choose-point", act_choose_point, "u"},
       {"apply-point", act_apply_point},
       {"frame", act_frame},
+      {"hide", act_hide},
+      {"isolate", act_hide},
+      {"show-all", act_show_all},
       {"view", act_view, "s"},
       {"filter", act_filter},
       {"report", act_report, "s"},

@@ -137,9 +137,14 @@ static const char *hint_for(SporeWindow *self) {
 }
 
 void spore_window_show_hint(SporeWindow *self) {
+  guint hidden = spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport));
   const char *hint = hint_for(self);
-  gtk_label_set_text(GTK_LABEL(self->hint), hint);
-  gtk_widget_set_tooltip_text(self->hint, hint); /* a narrow window has no room for all of it */
+  g_autofree char *text = hidden ? g_strdup_printf(ngettext("%u body is hidden, A shows all; %s",
+                                                            "%u bodies are hidden, A shows all; %s", hidden),
+                                                   hidden, hint)
+                                 : g_strdup(hint);
+  gtk_label_set_text(GTK_LABEL(self->hint), text);
+  gtk_widget_set_tooltip_text(self->hint, text); /* a narrow window has no room for all of it */
 }
 
 /* Actions. */
@@ -186,6 +191,10 @@ void spore_window_update_actions(SporeWindow *self) {
               spore_editor_document_is_modified(self->document) ||
                   !spore_editor_document_get_save_file(self->document));
   set_enabled(self, "delete", named);
+  gboolean body = spore_editor_document_selected_body(self->document) != NULL;
+  set_enabled(self, "hide", body);
+  set_enabled(self, "isolate", body);
+  set_enabled(self, "show-all", spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) > 0);
   set_enabled(self, "rename", named);
   set_enabled(self, "rename-dialog", named);
   update_generator(self, bodies);

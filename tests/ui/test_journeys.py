@@ -1370,7 +1370,7 @@ def what_nothing_holds_is_offered_to_be_held():
 
 @check
 def a_drag_beside_turns_the_view():
-    """left drag beside the organs turns the view and keeps the selection; a click there selects nothing."""
+    """left drag beside the organs turns the view and keeps the selection, a click there selects nothing; organs are hidden and shown, from the menu of the right button too."""
     folder_ = folder("scenes") / "aside"
     folder_.mkdir(exist_ok=True)
     (folder_ / "ball.off").write_bytes(ball().read_bytes())
@@ -1395,6 +1395,20 @@ def a_drag_beside_turns_the_view():
         middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height - 60)
         rights = [(middle[0] + dx, middle[1]) for dx in range(20, width // 2 - 10, 12)]
         at = next(place for place in rights if selects(place))
+        assert not editor.enabled("show-all")
+        editor.act("hide")
+        editor.find("label", "^1 body is hidden, A shows all")
+        assert not selects(at), "what is hidden is not picked"
+        editor.act("show-all")
+        ui.wait(lambda: not editor.look("label", "is hidden"), "the word to go")
+        assert selects(at)
+        editor.act("isolate")
+        assert editor.enabled("show-all") and selects(at)
+        editor.act("show-all")
+        editor.mouse("mousemove", *at, "click", 3)
+        editor.find("menu item", "^Show only this$")
+        editor.mouse("key", "Escape")
+        ui.wait(lambda: not editor.look("menu item", "^Show only this$"), "the menu to close")
         editor.mouse("mousemove", *beside, "mousedown", 1, "mousemove_relative", "--", 40, 0, "mousemove_relative", "--", 40, 0,
                      "mousemove_relative", "--", 40, 0, "sleep", 0.2, "mouseup", 1)
         assert editor.enabled("delete"), "the selection stays"

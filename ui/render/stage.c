@@ -79,7 +79,9 @@ static SporeStageBody *body_of_level(SporeStage *stage, guint index, const Spore
   SporeObject *object = level == body->level ? NULL : spore_document_by_id(stage->document, body->object);
   if (!object) return body;
   spore_stage_body_free(stage, body);
-  return stage->bodies->pdata[index] = spore_stage_body_new(stage, object, stage->simulation, &level);
+  body = stage->bodies->pdata[index] = spore_stage_body_new(stage, object, stage->simulation, &level);
+  spore_stage_body_show(stage, body);
+  return body;
 }
 
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
@@ -106,6 +108,11 @@ void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options
     spore_stage_body_place(stage, stage->bodies->pdata[i]);
   }
   if (stage->contact_handle) spore_renderer_set_visible(stage->renderer, stage->contact_handle, options->contacts);
+}
+
+void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden) {
+  stage->hidden = hidden;
+  for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_show(stage, stage->bodies->pdata[i]);
 }
 
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id) {

@@ -390,7 +390,9 @@ static const SporeStageCandidate *candidate_for(const SporeStage *stage, const S
 
 gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body) {
   const SporeStageCandidate *instead = candidate_for(stage, body);
-  if (!body->spheres_handle || (instead && (instead->sphere_count || instead->triangle_count))) return FALSE;
+  if (!body->spheres_handle || !spore_stage_shows(stage, body->object) ||
+      (instead && (instead->sphere_count || instead->triangle_count)))
+    return FALSE;
   return stage->options.spheres || (body->solid && stage->options.surfaces);
 }
 
@@ -408,12 +410,12 @@ SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
   SporeRenderer *renderer = stage->renderer;
   const SporeStageCandidate *instead = candidate_for(stage, body);
+  gboolean shown = spore_stage_shows(stage, body->object), surfaces = shown && stage->options.surfaces;
   if (body->surface_handle)
-    spore_renderer_set_visible(renderer, body->surface_handle,
-                               stage->options.surfaces && !(instead && instead->triangle_count));
-  if (body->inside_handle) spore_renderer_set_visible(renderer, body->inside_handle, stage->options.surfaces);
+    spore_renderer_set_visible(renderer, body->surface_handle, surfaces && !(instead && instead->triangle_count));
+  if (body->inside_handle) spore_renderer_set_visible(renderer, body->inside_handle, surfaces);
   if (body->spheres_handle)
     spore_renderer_set_visible(renderer, body->spheres_handle, spore_stage_body_shows_spheres(stage, body));
-  if (body->puffs_handle) spore_renderer_set_visible(renderer, body->puffs_handle, stage->options.surfaces);
-  if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, stage->options.tetrahedra);
+  if (body->puffs_handle) spore_renderer_set_visible(renderer, body->puffs_handle, surfaces);
+  if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, shown && stage->options.tetrahedra);
 }

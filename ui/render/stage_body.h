@@ -65,9 +65,10 @@ struct SporeStage {
   SporeDocument *document;
   const SporeSimulation *simulation; /* that the bodies were built for; NULL: none */
   SporeStageOptions options;
-  guint32 selection; /* id of a body */
-  GPtrArray *bodies; /* SporeStageBody * */
-  GHashTable *fit;   /* const SporeSphereSet * -> SporeStageFit * */
+  guint32 selection;  /* id of a body */
+  GHashTable *hidden; /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
+  GPtrArray *bodies;  /* SporeStageBody * */
+  GHashTable *fit;    /* const SporeSphereSet * -> SporeStageFit * */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
@@ -77,6 +78,11 @@ struct SporeStage {
   const SporeStageMarks *marks;         /* NULL: none */
   guint marks_handle;
 };
+
+/* Whether the user has not hidden the body. */
+static inline gboolean spore_stage_shows(const SporeStage *stage, guint32 object) {
+  return !stage->hidden || !g_hash_table_contains(stage->hidden, GUINT_TO_POINTER(object));
+}
 
 /* Builds what is drawn of a body, at time 0. Assets that cannot be read are left out. level: NULL for the level at time
  * 0. */

@@ -186,7 +186,8 @@ static void show_inside(SporeStage *stage, SporeStageBody *body, const uint32_t 
   body->inside_handle = 0;
   if (count == 0) return;
   body->inside_handle = spore_renderer_add_surface(stage->renderer, body->q, body->q_count / 3, faces, count, &style);
-  spore_renderer_set_visible(stage->renderer, body->inside_handle, stage->options.surfaces);
+  spore_renderer_set_visible(stage->renderer, body->inside_handle,
+                             stage->options.surfaces && spore_stage_shows(stage, body->object));
 }
 
 /* Shows the outer faces where the surface is the boundary of the tetrahedra. */

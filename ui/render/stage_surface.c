@@ -18,7 +18,8 @@ void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, cons
   if (!mesh->vertex_count) return;
   body->surface_handle = spore_renderer_add_surface(stage->renderer, mesh->vertices, mesh->vertex_count,
                                                     mesh->triangles, mesh->triangle_count, &body->style);
-  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+  spore_renderer_set_visible(stage->renderer, body->surface_handle,
+                             stage->options.surfaces && spore_stage_shows(stage, body->object));
 }
 
 /* Cuts: triangles that follow nodes of both sides of a cut are left out. */
@@ -82,5 +83,6 @@ void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCu
   spore_renderer_remove(stage->renderer, body->surface_handle);
   body->surface_handle = spore_renderer_add_surface(stage->renderer, body->surface.positions, body->surface.count, left,
                                                     count, &body->style);
-  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+  spore_renderer_set_visible(stage->renderer, body->surface_handle,
+                             stage->options.surfaces && spore_stage_shows(stage, body->object));
 }

@@ -19,6 +19,7 @@ void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3
   for (int i = 0; i < 3; i++) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
   for (guint b = 0; b < stage->bodies->len; b++) {
     const SporeStageBody *body = stage->bodies->pdata[b];
+    if (!spore_stage_shows(stage, body->object)) continue;
     for (gsize i = 0; i < body->surface.count; i++) take_in(lower, upper, body->surface.positions + 3 * i, 0);
     for (gsize i = 0; body->solid && i < body->shown; i++)
       take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
@@ -167,7 +168,7 @@ guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 di
   guint32 picked = 0;
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
-    double t = meet_body(body, origin, direction, nearest);
+    double t = spore_stage_shows(stage, body->object) ? meet_body(body, origin, direction, nearest) : HUGE_VAL;
     if (t < nearest) nearest = t, picked = body->object;
   }
   if (picked) *point = spore_vec3_add_scaled(origin, nearest, direction);

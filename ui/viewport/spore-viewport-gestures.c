@@ -199,6 +199,14 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   self->pressed_x = event->x, self->pressed_y = event->y;
 }
 
+/* The menu is of what lies under the cursor. */
+static void press_right(SporeViewport *self, const GdkEventButton *event) {
+  SporeVec3 point;
+  guint32 body = pick(self, event->x, event->y, &point);
+  if (body) spore_editor_document_select(self->document, body);
+  spore_viewport_popup(self, (const GdkEvent *)event, body != 0);
+}
+
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   gtk_widget_grab_focus(area);
   if (event->type != GDK_BUTTON_PRESS || !self->document) return GDK_EVENT_STOP;
@@ -210,6 +218,7 @@ gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, Spo
   self->last_x = event->x;
   self->last_y = event->y;
   if (event->button == GDK_BUTTON_PRIMARY) press_left(self, event);
+  if (event->button == GDK_BUTTON_SECONDARY) press_right(self, event);
   if (event->button == GDK_BUTTON_MIDDLE) begin_camera(self, event->state & GDK_SHIFT_MASK);
   return GDK_EVENT_STOP;
 }
@@ -286,6 +295,15 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     if (self->drag != DRAG_NONE) abort_drag(self);
     else if (self->picking) spore_activate(area, "pick-ends", NULL); /* no more */
     else spore_activate(area, "cancel-job", NULL);                   /* a preview, if there is one */
+    break;
+  case GDK_KEY_h:
+    spore_activate(area, "hide", NULL);
+    break;
+  case GDK_KEY_i:
+    spore_activate(area, "isolate", NULL);
+    break;
+  case GDK_KEY_a:
+    spore_activate(area, "show-all", NULL);
     break;
   case GDK_KEY_f:
     spore_viewport_frame(self);

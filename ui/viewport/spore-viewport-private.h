@@ -22,6 +22,7 @@ struct _SporeViewport {
   gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
   double edit_before[4]; /* the chosen sphere or point when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
+  GHashTable *hidden;    /* ids of bodies that are not shown, as pointers */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
   char *legend;      /* of the candidate's colours; NULL: none */
@@ -82,6 +83,10 @@ gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FAL
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
 /* Moves the chosen region to a click on the surface of that body. FALSE: no region moves. */
 gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
+
+/* spore-viewport-hiding.c: what is hidden, and the menu of the right button. */
+/* Opens the menu of the selected body, or of no body. */
+void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body);
 
 /* spore-viewport-gestures.c: mouse and keys. */
 /* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */

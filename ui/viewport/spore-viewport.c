@@ -60,6 +60,7 @@ static gboolean rebuild(gpointer data) {
   self->rebuild = 0;
   spore_viewport_show_welcome(self);
   if (!self->stage) return G_SOURCE_REMOVE;
+  spore_stage_set_hidden(self->stage, self->hidden);
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
@@ -200,6 +201,7 @@ static void release_document(SporeViewport *self) {
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player) {
   spore_viewport_end_drag(self);
   release_document(self);
+  g_hash_table_remove_all(self->hidden);
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
   self->framed = FALSE;
@@ -271,6 +273,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->renderer_name, g_free);
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
+  g_clear_pointer(&self->hidden, g_hash_table_unref);
   spore_viewport_clear_legend(self);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }
@@ -298,6 +301,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
 }
 
 static void spore_viewport_init(SporeViewport *self) {
+  self->hidden = g_hash_table_new(NULL, NULL);
   self->options = (SporeStageOptions){.surfaces = TRUE};
   spore_hand_edit_close(&self->edit);
   self->camera = (SporeCamera){

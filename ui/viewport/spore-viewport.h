@@ -1,11 +1,12 @@
 /* The scene as it stands, and the gestures on it.
  *
- * Left selects, Ctrl+left pulls tissue, middle orbits, Shift+middle pans, the wheel zooms to the cursor; F frames, 1,
- * 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool,
- * left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its
- * jaws and presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves spheres and
- * points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on,
- * Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
+ * Left selects, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan, the wheel zooms
+ * to the cursor, right opens a menu; H hides the selected body, I shows it alone, A shows all; F frames, 1, 3, 7 look
+ * along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool, left moves
+ * the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and
+ * presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves spheres and points of
+ * curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on, Insert adds,
+ * Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m */
@@ -42,6 +43,11 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
 /* Shows marks on a body; takes the segments. */
 void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks);
+/* Hides a body, or all others; shows all. body: object id. Of the view alone; another document shows all. */
+void spore_viewport_hide(SporeViewport *self, guint32 body);
+void spore_viewport_isolate(SporeViewport *self, guint32 body);
+void spore_viewport_show_all(SporeViewport *self);
+guint spore_viewport_hidden_count(SporeViewport *self);
 void spore_viewport_frame(SporeViewport *self);
 /* Frames the scene at the next rebuild, when the last change is visible. */
 void spore_viewport_frame_soon(SporeViewport *self);

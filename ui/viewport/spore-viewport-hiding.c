@@ -1,0 +1,70 @@
+/* Bodies that are hidden from the view, and the menu of the right button. Hiding is of the view alone: the scene and
+ * its simulation do not know of it. */
+#include "ui/viewport/spore-viewport-private.h"
+
+#include <glib/gi18n.h>
+
+static void hidden_changed(SporeViewport *self) {
+  if (self->stage) spore_stage_set_hidden(self->stage, self->hidden);
+  spore_viewport_redraw(self);
+}
+
+guint spore_viewport_hidden_count(SporeViewport *self) {
+  guint count = 0;
+  if (!self->document) return 0;
+  const SporeObject *bodies = spore_document_section(spore_editor_document_get(self->document), "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    count +=
+        g_hash_table_contains(self->hidden, GUINT_TO_POINTER(spore_object_id(spore_object_child(bodies, i)))) != FALSE;
+  return count;
+}
+
+void spore_viewport_hide(SporeViewport *self, guint32 body) {
+  g_hash_table_add(self->hidden, GUINT_TO_POINTER(body));
+  hidden_changed(self);
+}
+
+void spore_viewport_isolate(SporeViewport *self, guint32 body) {
+  const SporeObject *bodies = spore_document_section(spore_editor_document_get(self->document), "bodies");
+  g_hash_table_remove_all(self->hidden);
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    guint32 id = spore_object_id(spore_object_child(bodies, i));
+    if (id != body) g_hash_table_add(self->hidden, GUINT_TO_POINTER(id));
+  }
+  hidden_changed(self);
+}
+
+void spore_viewport_show_all(SporeViewport *self) {
+  g_hash_table_remove_all(self->hidden);
+  hidden_changed(self);
+}
+
+/* The menu. */
+
+static GMenu *menu_of_body(void) {
+  GMenu *menu = g_menu_new();
+  g_menu_append(menu, _("Hold"), "win.add-pin");
+  g_menu_append(menu, _("Hide"), "win.hide");
+  g_menu_append(menu, _("Show only this"), "win.isolate");
+  g_menu_append(menu, _("Show all"), "win.show-all");
+  g_menu_append(menu, _("Rename…"), "win.rename-dialog");
+  g_menu_append(menu, _("Delete"), "win.delete");
+  return menu;
+}
+
+static GMenu *menu_of_nothing(void) {
+  GMenu *menu = g_menu_new();
+  g_menu_append(menu, _("Frame"), "win.frame");
+  g_menu_append(menu, _("Show all"), "win.show-all");
+  g_menu_append(menu, _("Add a probe"), "win.add-probe");
+  g_menu_append(menu, _("Import…"), "win.import-dialog");
+  return menu;
+}
+
+void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body) {
+  g_autoptr(GMenu) model = of_body ? menu_of_body() : menu_of_nothing();
+  GtkWidget *menu = gtk_menu_new_from_model(G_MENU_MODEL(model));
+  gtk_menu_attach_to_widget(GTK_MENU(menu), self->area, NULL);
+  g_signal_connect(menu, "selection-done", G_CALLBACK(gtk_widget_destroy), NULL);
+  gtk_menu_popup_at_pointer(GTK_MENU(menu), event);
+}
