@@ -110,7 +110,7 @@ static void keep_volume(const SporeShell *shell, uint32_t a, uint32_t b, const S
 static bool place(const Collapser *work, uint32_t a, uint32_t b, const SporeQuadric *both, SporeVec3 *x) {
   const SporeShell *shell = work->shell;
   SporeVec3 from = spore_shell_at(shell, a), to = spore_shell_at(shell, b);
-  bool lined = shell->kind[b] != SPORE_SHELL_CORNER && spore_shell_is_feature(shell, a, b);
+  bool lined = shell->kind[b] == SPORE_SHELL_LINE && spore_shell_is_feature(shell, a, b);
   bool small = spore_vec3_distance(from, to) < SMALL * work->edge;
   if (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined && !small) return false;
   if (shell->kind[a] > shell->kind[b] ||

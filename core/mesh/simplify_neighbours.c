@@ -1,4 +1,5 @@
 /* Sorts triangles into the cells of a grid, to find changes after which triangles would intersect. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -6,6 +7,7 @@
 #include "core/mesh/simplify_parts.h"
 
 #define MOST_CELLS 128 /* a side */
+#define MOST_RING 32   /* triangles looked at together */
 #define NONE UINT32_MAX
 
 bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell *shell, double edge) {
@@ -97,12 +99,46 @@ static bool edge_through(const uint32_t n[3], const SporeVec3 p[3], const uint32
   return false;
 }
 
-/* Whether a triangle intersects any triangle that has neither a nor b. */
-static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t n[3], const SporeVec3 p[3],
-                         uint32_t a, uint32_t b) {
-  Box box = box_of(p);
+/* Triangles as they would be, looked at together. */
+typedef struct Ring {
+  const uint32_t *corner[MOST_RING];
+  SporeVec3 p[MOST_RING][3];
+  Box box[MOST_RING], whole;
+  size_t count;
+} Ring;
+
+static void add_to_ring(Ring *ring, const uint32_t *corner, const SporeVec3 p[3]) {
+  assert(ring->count < MOST_RING);
+  const Box box = box_of(p);
+  ring->corner[ring->count] = corner;
+  memcpy(ring->p[ring->count], p, sizeof ring->p[0]);
+  ring->box[ring->count] = box;
+  if (ring->count++ == 0) ring->whole = box;
+  for (size_t e = 0; e < 3; e++) {
+    if (box.lower[e] < ring->whole.lower[e]) ring->whole.lower[e] = box.lower[e];
+    if (box.upper[e] > ring->whole.upper[e]) ring->whole.upper[e] = box.upper[e];
+  }
+}
+
+/* Whether a triangle of the shell intersects one of the ring. */
+static bool meets_ring(const SporeShell *shell, const Ring *ring, uint32_t other) {
+  const uint32_t *m = shell->corner + 3 * (size_t)other;
+  SporeVec3 q[3];
+  corners_of(shell, other, q);
+  const Box its = box_of(q);
+  if (!boxes_meet(&ring->whole, &its)) return false;
+  for (size_t i = 0; i < ring->count; i++)
+    if (boxes_meet(&ring->box[i], &its) &&
+        (edge_through(ring->corner[i], ring->p[i], m, q) || edge_through(m, q, ring->corner[i], ring->p[i])))
+      return true;
+  return false;
+}
+
+/* Whether a triangle of the ring intersects any triangle that has neither a nor b. Empties the ring. */
+static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, Ring *ring, uint32_t a, uint32_t b) {
+  if (ring->count == 0) return false;
   size_t from[3], to[3];
-  cells_of(near, &box, from, to);
+  cells_of(near, &ring->whole, from, to);
   uint32_t first = near->asked + 1;
   for (size_t x = from[0]; x <= to[0]; x++)
     for (size_t y = from[1]; y <= to[1]; y++)
@@ -119,46 +155,59 @@ static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, co
           }
           link = next;
           near->seen[other] = near->asked;
-          if (met || has(m, a) || has(m, b)) continue;
-          SporeVec3 q[3];
-          corners_of(shell, other, q);
-          Box its = box_of(q);
-          if (boxes_meet(&box, &its) && (edge_through(n, p, m, q) || edge_through(m, q, n, p))) return true;
+          if (!met && !has(m, a) && !has(m, b) && meets_ring(shell, ring, other)) return true;
         }
       }
+  ring->count = 0;
   return false;
 }
 
-/* Whether the triangles around a vertex intersect others when the vertex is at x; triangles that also have `except` are
- * left out. */
-static bool ring_goes_through(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x,
-                              uint32_t except) {
+/* Adds the triangles around a vertex as they are with the vertex at x; those that also have `except` are left out.
+ * True: the ring was full, and what it held intersects others. */
+static bool add_around(SporeShellNeighbours *near, const SporeShell *shell, Ring *ring, uint32_t vertex, SporeVec3 x,
+                       uint32_t except) {
   for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
     const uint32_t *n = shell->corner + 3 * (size_t)(c / 3);
     if (has(n, except)) continue;
     SporeVec3 p[3];
     corners_of(shell, c / 3, p);
     p[c % 3] = x;
-    if (goes_through(near, shell, n, p, vertex, except)) return true;
+    if (ring->count == MOST_RING && goes_through(near, shell, ring, vertex, except)) return true;
+    add_to_ring(ring, n, p);
   }
   return false;
 }
 
+/* Whether the triangles around a vertex intersect others when the vertex is at x. */
+static bool ring_goes_through(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x) {
+  Ring ring;
+  ring.count = 0;
+  return add_around(near, shell, &ring, vertex, x, SPORE_SHELL_NONE) ||
+         goes_through(near, shell, &ring, vertex, SPORE_SHELL_NONE);
+}
+
 bool spore_shell_would_cross(SporeShellNeighbours *near, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x) {
-  if (!ring_goes_through(near, shell, a, x, b) && !ring_goes_through(near, shell, b, x, a)) return false;
-  return !ring_goes_through(near, shell, a, spore_shell_at(shell, a), SPORE_SHELL_NONE) &&
-         !ring_goes_through(near, shell, b, spore_shell_at(shell, b), SPORE_SHELL_NONE);
+  Ring ring;
+  ring.count = 0;
+  if (!add_around(near, shell, &ring, a, x, b) && !add_around(near, shell, &ring, b, x, a) &&
+      !goes_through(near, shell, &ring, a, b))
+    return false;
+  return !ring_goes_through(near, shell, a, spore_shell_at(shell, a)) &&
+         !ring_goes_through(near, shell, b, spore_shell_at(shell, b));
 }
 
 bool spore_shell_move_crosses(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x) {
-  return ring_goes_through(near, shell, vertex, x, SPORE_SHELL_NONE) &&
-         !ring_goes_through(near, shell, vertex, spore_shell_at(shell, vertex), SPORE_SHELL_NONE);
+  return ring_goes_through(near, shell, vertex, x) &&
+         !ring_goes_through(near, shell, vertex, spore_shell_at(shell, vertex));
 }
 
 bool spore_shell_triangle_crosses(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t corner[3]) {
+  Ring ring;
   SporeVec3 p[3];
   for (size_t k = 0; k < 3; k++) p[k] = spore_shell_at(shell, corner[k]);
-  return goes_through(near, shell, corner, p, SPORE_SHELL_NONE, SPORE_SHELL_NONE);
+  ring.count = 0;
+  add_to_ring(&ring, corner, p);
+  return goes_through(near, shell, &ring, SPORE_SHELL_NONE, SPORE_SHELL_NONE);
 }
 
 bool spore_shell_neighbours_add_ring(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex) {
