@@ -48,9 +48,16 @@ static void queue_refresh(SporeInspector *self);
 
 /* Rows. */
 
-/* One row for each parameter of the table. */
-static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const SporeObjectType *type) {
+/* A remark that an importer made of the object is shown where it stands, to be taken back; nobody makes it by hand. */
+static gboolean is_absent_remark(const SporeObject *object, const SporeParameter *parameter) {
+  return strcmp(parameter->name, "name_guessed") == 0 && !(object && spore_object_number(object, parameter->name) != 0);
+}
+
+/* One row for each parameter of the table. object: NULL: it does not exist yet. */
+static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const SporeObjectType *type,
+                     const SporeObject *object) {
   for (gsize i = 0; i < type->table->count; i++) {
+    if (is_absent_remark(object, &type->table->parameters[i])) continue;
     GtkWidget *row = spore_property_row_new(self->document, path, type, (guint)i);
     gtk_container_add(GTK_CONTAINER(box), row);
     g_ptr_array_add(spore_section_rows(box), row);
@@ -59,7 +66,7 @@ static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const 
 
 static void add_object(SporeInspector *self, GtkBox *box, SporeObject *object) {
   g_autofree char *path = spore_object_path(object);
-  add_rows(self, box, path, spore_object_type(object));
+  add_rows(self, box, path, spore_object_type(object), object);
 }
 
 /* A unit of the body, which may not exist yet: the first change of a row makes the unit. */
@@ -67,7 +74,7 @@ static void add_unit(SporeInspector *self, GtkBox *box, SporeObject *body, const
   const SporeObjectType *type = spore_object_type_child(spore_object_type(body), element);
   g_autofree char *parent = spore_object_path(body);
   g_autofree char *path = g_strconcat(parent, "/", element, NULL);
-  if (type) add_rows(self, box, path, type);
+  if (type) add_rows(self, box, path, type, NULL);
 }
 
 static GtkWidget *add_fact(GtkBox *box) {
