@@ -157,7 +157,7 @@ double spore_processor_s(void);
 bool spore_accuracy_measure_more(SporeAccuracyReport *report, const SporeAccuracyWorld *world, bool timed_only,
                                  SporeAccuracyPoint *point, SporeError *error);
 /* The work-precision plot: error over step, and error over cost, a line a method and level. Points whose error is not a
- * number stand above all others; empty points are not stable, ringed ones are the Pareto set. */
+ * number stand above all others; empty points are not sound, ringed ones are the Pareto set. */
 typedef struct SporeAccuracyPlot {
   SporePlotPanel panels[2]; /* by step (ms) and by cost (s on the processor for a simulated s); errors in percent */
   size_t *first;            /* of each line: index in the report of the line's first point; the others follow */

@@ -69,7 +69,7 @@ static void fill(Lines *lines, const SporeAccuracyReport *report) {
     lines->step[i] = 1e3 * point->dt_s;
     lines->cost[i] = point->cost;
     lines->error[i] = 100 * (isfinite(point->error) ? fmax(point->error, 1e-14) : beyond);
-    lines->hollow[i] = !point->stable;
+    lines->hollow[i] = !point->sound;
     lines->ringed[i] = point->pareto;
     if (!last) continue;
     add_line(lines, report, first, i + 1 - first);
@@ -117,9 +117,9 @@ char *spore_accuracy_svg(const SporeAccuracyReport *report, const char *title, S
   SporeAccuracyPlot plot;
   char note[1024];
   if (!spore_accuracy_plot_make(&plot, report, error)) return NULL;
-  snprintf(
-      note, sizeof note, "%s\n%s", report->sentence ? report->sentence : "",
-      _("Ringed: the Pareto set. Empty: not stable. In grey: what cannot be told from the reference's own error."));
+  snprintf(note, sizeof note, "%s\n%s", report->sentence ? report->sentence : "",
+           _("Ringed: the Pareto set. Empty: not stable, not solved as written, or its energy far off.\n"
+             "In grey: what cannot be told from the reference's own error."));
   char *svg = spore_plot_svg(title, note, plot.panels, sizeof plot.panels / sizeof *plot.panels, error);
   spore_accuracy_plot_clear(&plot);
   return svg;

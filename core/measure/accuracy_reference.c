@@ -18,8 +18,9 @@
 #define PERTURBATION 1e-8  /* of a body's length */
 #define CHAOTIC 1e-3
 #define SPREAD_RUNS 8
-#define AGREE 3    /* times what both say of their errors */
-#define ALIKE 1e-6 /* of a body's length: what is no farther apart is the same but for rounding */
+#define AGREE 3        /* times what both say of their errors */
+#define ALIKE 0.01     /* of a run's error: what is no farther apart is the same but for rounding, */
+#define ALIKE_ALL 1e-9 /* or this, of a body's length */
 
 double spore_study_mean_difference(const SporeStudy *study, const SporeTrial *a, const SporeTrial *b) {
   size_t bodies = study->points.body_count;
@@ -70,21 +71,21 @@ static bool weigh(const SporeStudy *study, size_t method, int level, Candidate *
   return isfinite(near) && isfinite(far);
 }
 
-/* Whether two methods move the bodies alike: to rounding at two steps at least, and nowhere farther apart than what
- * rounding may grow to. */
+/* Whether two methods move the bodies alike at all steps that both were run with, two at least. */
 static bool are_alike(const SporeStudy *study, size_t method, size_t other) {
   const SporeAccuracyReport *report = study->report;
-  size_t alike = 0;
+  size_t pairs = 0;
   for (size_t i = 0; i < report->point_count; i++)
     for (size_t k = 0; k < report->point_count; k++) {
       const SporeAccuracyPoint *a = &report->points[i], *b = &report->points[k];
       bool same_step = a->level == b->level && fabs(a->dt_s / b->dt_s - 1) < 1e-9;
       if (a->method != method || b->method != other || !same_step) continue;
-      double apart = spore_trial_difference(&study->points, &study->trials[i], &study->trials[k]).worst;
-      if (!(apart <= CHAOTIC)) return false;
-      alike += apart <= ALIKE;
+      double apart = spore_study_difference(study, &study->trials[i], &study->trials[k]);
+      double error = spore_study_difference(study, &study->reference, &study->trials[i]);
+      if (!(apart <= fmax(ALIKE * error, ALIKE_ALL)) || isinf(apart)) return false;
+      pairs++;
     }
-  return alike > 1;
+  return pairs > 1;
 }
 
 /* A second method that goes the same way checks nothing, and a reader takes it for another one. */
@@ -194,6 +195,7 @@ static bool cross_check(SporeStudy *study, int level) {
   Candidate second;
   int halved = 0;
   SporeTrial trial;
+  find_alike(study);
   reference->cross_method = SIZE_MAX;
   reference->agreed = false;
   bool found = false;
@@ -268,7 +270,6 @@ bool spore_study_refer(SporeStudy *study) {
   SporeAccuracyReport *report = study->report;
   int level = spore_study_finest_level(report), halved = 0;
   Candidate best;
-  find_alike(study);
   if (!choose(study, level, SIZE_MAX, false, 2, SHARE * study->most_s, &best, &halved))
     return spore_error_set(
         study->error, SPORE_ERROR_NUMERICAL, NULL,

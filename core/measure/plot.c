@@ -257,17 +257,15 @@ static bool draw_panel(SporeTextBuffer *text, const SporePlotPanel *panel, doubl
 static void draw_legend(SporeTextBuffer *text, const SporePlotPanel *panel) {
   double x = LEFT;
   for (size_t l = 0; l < panel->line_count; l++) {
-    if (l % SPORE_PLOT_COLOURS) {
-      spore_text_add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
-      spore_text_add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
-      spore_text_add(text, "\"");
-      add_dashes(text, &spore_plot_styles[l % SPORE_PLOT_COLOURS]);
-      spore_text_add(text, " d=\"M");
-      add_number(text, x - 6);
-      spore_text_add(text, " ");
-      add_number(text, TOP - 27);
-      spore_text_add(text, "h22\"/>\n");
-    }
+    spore_text_add(text, "<path fill=\"none\" stroke-width=\"2\" stroke=\"");
+    spore_text_add(text, spore_plot_colours[l % SPORE_PLOT_COLOURS]);
+    spore_text_add(text, "\"");
+    add_dashes(text, &spore_plot_styles[l % SPORE_PLOT_COLOURS]);
+    spore_text_add(text, " d=\"M");
+    add_number(text, x - 6);
+    spore_text_add(text, " ");
+    add_number(text, TOP - 27);
+    spore_text_add(text, "h22\"/>\n");
     draw_point(text, x + 5, TOP - 27, 4.5, l, false);
     spore_svg_text(text, x + 21, TOP - 23, "", panel->lines[l].label);
     x += 44 + width_of(panel->lines[l].label);

@@ -102,6 +102,11 @@ def stability_row(study):
 
 # Who loses where.
 
+def unreached(studies, target):
+    """Scenes where so small an error can be told, and no method gets there."""
+    return [study.name for study in studies if study.reached(target) == {}]
+
+
 def standing(studies, target):
     """{method: [(factor over the cheapest, scene, the cheapest's name)]}; infinite: it does not get there."""
     found = {}
@@ -136,6 +141,8 @@ def losses(studies):
         places = standing(studies, target)
         order = sorted(places, key=lambda m: -sum(factor <= EVEN for factor, _, _ in places[m]))
         said[target] = [sentence_of(method, places[method]) for method in order]
+        missed = unreached(studies, target)
+        said[target] += [f"no method gets there in {', '.join(missed)}"] if missed else []
     return said
 
 
