@@ -28,6 +28,7 @@ static const struct {
     {"win.undo", {"<Control>z"}},
     {"win.redo", {"<Control><Shift>z", "<Control>y"}},
     {"win.play-pause", {"F5"}},
+    {"win.present", {"F11"}},
     {"win.step", {"F6"}},
     {"win.reset", {"<Shift>F5"}},
     {"win.apply-generated", {"<Control>Return"}},

@@ -211,12 +211,22 @@ static void change_overlay(GSimpleAction *action, GVariant *state, gpointer data
   spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options);
 }
 
+/* Panels stand beside the view, but not while it has the whole screen. */
 static void change_panel(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
   g_simple_action_set_state(action, state);
-  gtk_widget_set_visible(self->outliner, is_on(self, "show-outliner"));
-  gtk_widget_set_visible(self->inspector, is_on(self, "show-inspector"));
-  gtk_widget_set_visible(self->bottom, is_on(self, "show-problems"));
+  gboolean beside = !is_on(self, "present");
+  gtk_widget_set_visible(self->outliner, beside && is_on(self, "show-outliner"));
+  gtk_widget_set_visible(self->inspector, beside && is_on(self, "show-inspector"));
+  gtk_widget_set_visible(self->bottom, beside && is_on(self, "show-problems"));
+}
+
+/* The view has the whole screen, or gives it back. */
+static void change_present(GSimpleAction *action, GVariant *state, gpointer data) {
+  change_panel(action, state, data);
+  if (g_variant_get_boolean(state)) gtk_window_fullscreen(GTK_WINDOW(data));
+  else gtk_window_unfullscreen(GTK_WINDOW(data));
+  spore_window_show_hint(data);
 }
 
 static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -326,6 +336,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-outliner", NULL, NULL, "true", change_panel},
       {"show-inspector", NULL, NULL, "true", change_panel},
       {"show-problems", NULL, NULL, "true", change_panel},
+      {"present", NULL, NULL, "false", change_present},
       {"measure-accuracy", act_measure_accuracy},
       {"choose-point", act_choose_point, "u"},
       {"apply-point", act_apply_point},

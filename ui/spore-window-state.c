@@ -118,6 +118,8 @@ static const char *picking_hint(SporeWindow *self) {
 
 static const char *hint_for(SporeWindow *self) {
   if (picking_hint(self)) return picking_hint(self);
+  g_autoptr(GVariant) present = g_action_group_get_action_state(G_ACTION_GROUP(self), "present");
+  if (g_variant_get_boolean(present)) return _("F11 or Escape brings the panels back; F5 plays and pauses");
   SporeDocument *document = spore_editor_document_get(self->document);
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
     return _("Import a mesh to begin, or open the demo");

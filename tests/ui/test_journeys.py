@@ -1369,6 +1369,25 @@ def what_nothing_holds_is_offered_to_be_held():
 
 
 @check
+def the_view_has_the_whole_screen():
+    """F11 gives the view all panels' room, and brings back those that were there."""
+    with start(write_scene("whole", "<rigid_body/>")) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("show-inspector")
+        before = editor.place(editor.find(".*", "^Viewport$"))
+        editor.focus()
+        editor.keys("F11")
+        editor.find("label", "^F11 or Escape brings the panels back")
+        ui.wait(lambda: not editor.row("ball") and editor.place(editor.find(".*", "^Viewport$"))[2] > before[2], "the panels to go")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.mouse("mousemove", x + 20, y + height - 60, "click", 1)
+        editor.focus()
+        editor.keys("F11")
+        ui.wait(lambda: editor.row("ball"), "the panels")
+        assert not editor.state("show-inspector"), "what was closed stays closed"
+
+
+@check
 def a_drag_beside_turns_the_view():
     """left drag beside the organs turns the view and keeps the selection, a click there selects nothing; organs are hidden and shown, from the menu of the right button too."""
     folder_ = folder("scenes") / "aside"

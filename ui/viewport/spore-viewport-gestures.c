@@ -287,6 +287,11 @@ gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeView
   return GDK_EVENT_STOP;
 }
 
+static gboolean has_whole_screen(GtkWidget *area) {
+  GdkWindow *window = gtk_widget_get_window(gtk_widget_get_toplevel(area));
+  return window && gdk_window_get_state(window) & GDK_WINDOW_STATE_FULLSCREEN;
+}
+
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
   if (event->state & gtk_accelerator_get_default_mod_mask()) return GDK_EVENT_PROPAGATE;
   if (spore_viewport_edit_key(self, event->keyval)) return GDK_EVENT_STOP;
@@ -294,7 +299,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);
     else if (self->picking) spore_activate(area, "pick-ends", NULL); /* no more */
-    else spore_activate(area, "cancel-job", NULL);                   /* a preview, if there is one */
+    else if (has_whole_screen(area)) spore_activate(area, "present", NULL);
+    else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
     break;
   case GDK_KEY_h:
     spore_activate(area, "hide", NULL);
