@@ -93,16 +93,26 @@ static void spore_application_activate(GApplication *application) {
   else add_window(SPORE_APPLICATION(application));
 }
 
+/* The active window where it shows nothing yet, else a new one. */
+static SporeWindow *window_to_fill(SporeApplication *self) {
+  GtkWindow *active = gtk_application_get_active_window(GTK_APPLICATION(self));
+  return SPORE_IS_WINDOW(active) && spore_window_is_fresh(SPORE_WINDOW(active)) ? SPORE_WINDOW(active)
+                                                                                : add_window(self);
+}
+
+/* Scenes are opened, each in a window of its own; all other files are imported together. */
 static void spore_application_open(GApplication *application, GFile **files, int count, const char *hint) {
   SporeApplication *self = SPORE_APPLICATION(application);
+  g_autoptr(GPtrArray) meshes = g_ptr_array_new_with_free_func(g_free);
   for (int i = 0; i < count; i++) {
-    GtkWindow *active = gtk_application_get_active_window(GTK_APPLICATION(self));
-    SporeWindow *window = SPORE_IS_WINDOW(active) && spore_window_is_fresh(SPORE_WINDOW(active)) ? SPORE_WINDOW(active)
-                                                                                                 : add_window(self);
     g_autofree char *path = g_file_get_path(files[i]);
     g_autofree char *uri = g_file_get_uri(files[i]);
-    spore_window_open(window, path ? path : uri);
+    if (path && !g_str_has_suffix(path, ".spore")) g_ptr_array_add(meshes, g_steal_pointer(&path));
+    else spore_window_open(window_to_fill(self), path ? path : uri);
   }
+  if (meshes->len == 0) return;
+  GVariant *names = g_variant_new_strv((const char *const *)meshes->pdata, meshes->len);
+  g_action_group_activate_action(G_ACTION_GROUP(window_to_fill(self)), "import-dialog-with", names);
 }
 
 static void spore_application_finalize(GObject *object) {

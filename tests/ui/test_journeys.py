@@ -1108,6 +1108,17 @@ def view_goes_with_the_camera():
 
 
 @check
+def opened_with_meshes():
+    """an editor that is opened with meshes imports them."""
+    other = folder("meshes") / "other.off"
+    other.write_bytes(ball().read_bytes())
+    with start(ball(), other) as editor:
+        editor.find("label", "^2 bodies")
+        editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
+        ui.wait(lambda: editor.row("ball") and editor.row("other"), "both organs")
+
+
+@check
 def bad_files():
     """bad files give one message and leave the scene as it was."""
     bad = folder("meshes") / "text.stl"
