@@ -9,7 +9,7 @@
 #include "core/base/text.h"
 #include "core/generate/common/common.h"
 
-#define MOST_FACES 60000000 /* 1.2 GB, and the nodes as much again */
+#define MOST_FACES 30000000 /* with the nodes about 2 GB */
 #define ROUNDS 12           /* of smoothing: more move little within the slack */
 #define LAMBDA 0.5f
 #define MU (-0.53f) /* Taubin 1995: what shrinks is blown up again */

@@ -37,8 +37,8 @@ int spore_label_add(SporeLabelShare *shares, int count, SporeLabelShare one);
  * number). So nothing does not win where organs meet. */
 uint16_t spore_label_winner(const SporeLabelShare *shares, int count);
 
-/* Whether the map's axes are left-handed in space, so that what is outward in indices is inward there. */
-bool spore_label_map_mirrors(const SporeLabelMap *map);
+/* Takes a surface from indices of the map to metres; what is outward in indices is outward there, too. */
+void spore_label_surface_place(const SporeLabelMap *map, SporeTriangleMesh *surface);
 
 /* The winning label of a cell with these corners. */
 uint16_t spore_label_of_cell(const SporeLabelField *field, const SporeVec3 corner[4]);

@@ -135,19 +135,30 @@ static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *err
     if (i == 0 || keys[i] != keys[i - 1]) {
       double p[3];
       corner_at(keys[i], m->n, p);
-      SporeVec3 place = spore_label_map_place(m->map, p[0] + (double)m->lower[0], p[1] + (double)m->lower[1],
-                                              p[2] + (double)m->lower[2]);
-      spore_vec3_store(surface->vertices + 3 * vertices++, place);
+      for (int k = 0; k < 3; k++) surface->vertices[3 * vertices + (size_t)k] = p[k] + (double)m->lower[k];
+      vertices++;
     }
     surface->triangles[order[i]] = (uint32_t)(vertices - 1);
   }
   return true;
 }
 
-bool spore_label_map_mirrors(const SporeLabelMap *map) {
+/* Whether the index axes are left-handed in space; every triangle is then turned over. */
+static bool mirrors(const SporeLabelMap *map) {
   const double *a = map->axes;
   return spore_vec3_dot(spore_vec3(a[0], a[4], a[8]),
                         spore_vec3_cross(spore_vec3(a[1], a[5], a[9]), spore_vec3(a[2], a[6], a[10]))) < 0;
+}
+
+void spore_label_surface_place(const SporeLabelMap *map, SporeTriangleMesh *surface) {
+  for (size_t i = 0; i < surface->vertex_count; i++) {
+    double *x = surface->vertices + 3 * i;
+    spore_vec3_store(x, spore_label_map_place(map, x[0], x[1], x[2]));
+  }
+  for (size_t t = 0; mirrors(map) && t < surface->triangle_count; t++) {
+    uint32_t *corner = surface->triangles + 3 * t, swap = corner[1];
+    corner[1] = corner[2], corner[2] = swap;
+  }
 }
 
 bool spore_label_surface(const SporeLabelMap *map, uint16_t label, SporeTriangleMesh *surface,
@@ -157,10 +168,7 @@ bool spore_label_surface(const SporeLabelMap *map, uint16_t label, SporeTriangle
               spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                               _("no voxel has the label %u; expected some; give one that there is"), (unsigned)label);
   done = done && march(&m, progress, error) && build(&m, surface, error);
-  for (size_t t = 0; done && spore_label_map_mirrors(map) && t < surface->triangle_count; t++) {
-    uint32_t *corner = surface->triangles + 3 * t, swap = corner[1];
-    corner[1] = corner[2], corner[2] = swap;
-  }
+  if (done) spore_label_surface_place(map, surface);
   g_array_unref(m.keys);
   return done;
 }

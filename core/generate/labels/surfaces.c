@@ -130,18 +130,6 @@ static bool thin(Work *w, SporeLabelSurface *surface, const SporeProgress *progr
   return done;
 }
 
-/* From indices to metres. */
-static void place(const SporeLabelMap *map, SporeTriangleMesh *mesh) {
-  for (size_t i = 0; i < mesh->vertex_count; i++) {
-    double *x = mesh->vertices + 3 * i;
-    spore_vec3_store(x, spore_label_map_place(map, x[0], x[1], x[2]));
-  }
-  for (size_t t = 0; spore_label_map_mirrors(map) && t < mesh->triangle_count; t++) {
-    uint32_t *corner = mesh->triangles + 3 * t, swap = corner[1];
-    corner[1] = corner[2], corner[2] = swap;
-  }
-}
-
 static bool make(Work *w, SporeLabelSurface *surface, const SporeProgress *progress, SporeError *error) {
   const uint32_t *own = w->own + w->first[surface->label];
   const size_t count = w->first[surface->label + 1] - w->first[surface->label];
@@ -153,7 +141,7 @@ static bool make(Work *w, SporeLabelSurface *surface, const SporeProgress *progr
   bool done = spore_label_net_surface(&w->net, surface->label, own, count, &surface->mesh, error);
   surface->triangles_before = surface->mesh.triangle_count;
   done = done && thin(w, surface, progress, error);
-  if (done) place(w->map, &surface->mesh);
+  if (done) spore_label_surface_place(w->map, &surface->mesh);
   return done;
 }
 
