@@ -285,6 +285,7 @@ static const SporeReportMember members[] = {
     {"surroundings",
      N_("of a label map, with --surroundings, of each: label, name, triangles, triangles_before (before they were made "
         "fewer), off_voxels (largest distance found from the faces of its voxels), cut")},
+    {"surroundings_seconds", N_("that the surroundings took")},
     {"seams", N_("of a label map, with -o F.spore: between bodies that share faces")},
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};

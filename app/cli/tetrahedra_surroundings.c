@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 
 #include "app/cli/tetrahedra_list.h"
+#include "core/base/profile.h"
 
 static void clear(gpointer data) { spore_triangle_mesh_clear(&((SporeLabelSurrounding *)data)->surface.mesh); }
 
@@ -31,12 +32,16 @@ GArray *spore_cli_surroundings(SporeCli *cli, const SporeLabelMap *map, const Sp
   g_autoptr(GArray) rest = rest_of(survey, chosen);
   g_autofree SporeLabelSurface *surfaces = g_new0(SporeLabelSurface, rest->len);
   SporeError failure = SPORE_ERROR_INIT;
+  const guint64 started = spore_clock_ns();
   for (guint i = 0; i < rest->len; i++) surfaces[i].label = g_array_index(rest, SporeLabelSurrounding, i).surface.label;
   if (!spore_label_surfaces(map, surfaces, rest->len, spore_cli_progress(cli), &failure)) {
     spore_error_propagate(&failure, error);
     return NULL;
   }
   for (guint i = 0; i < rest->len; i++) g_array_index(rest, SporeLabelSurrounding, i).surface = surfaces[i];
+  const double seconds = 1e-9 * (double)(spore_clock_ns() - started);
+  spore_cli_number(cli, "surroundings_seconds", seconds);
+  spore_cli_say(cli, _("%u surroundings, %.1f s\n"), rest->len, seconds);
   return g_steal_pointer(&rest);
 }
 

@@ -6,7 +6,8 @@
 #include "core/author/label_surroundings.h"
 #include "core/io/label_survey.h"
 
-/* Makes the surfaces of the labels that are not chosen (of guint16). GArray of SporeLabelSurrounding, whose names are
+/* Makes the surfaces of the labels that are not chosen (of guint16), and reports the member `surroundings_seconds`.
+ * GArray of SporeLabelSurrounding, whose names are
  * the survey's; NULL with an error. */
 GArray *spore_cli_surroundings(SporeCli *cli, const SporeLabelMap *map, const SporeLabelSurvey *survey,
                                const GArray *chosen, GError **error);
