@@ -24,6 +24,8 @@ const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine"
          from the line */
 #define WALL_DENSITY 1060 /* kg/m^3, both the intestine's by default */
 #define CONTENT_DENSITY 300
+#define STIFFNESS 400       /* N/m, of contacts */
+#define BOWEL_STIFFNESS 800 /* N/m: holds a probe that pulls at a loop until the mesentery is taut */
 #define SAG 0.5 /* in mean radii: how far the weight of a bowel stretches the mesentery that it hangs from */
 #define GRAVITY 9.81
 
@@ -149,9 +151,11 @@ static gboolean insert_model(SporeDocument *document, SporeObject *body, SporeOb
                    set_number(document, model, "wall_thickness", WALL * radius, error));
 }
 
-static gboolean insert_units(SporeDocument *document, SporeObject *body, SporeObject *mesh, GError **error) {
+static gboolean insert_units(SporeDocument *document, SporeObject *body, const SporeCentrelineBodyOptions *options,
+                             SporeObject *mesh, GError **error) {
   SporeObject *collision = insert(document, body, "collision", NULL, error);
-  if (!collision || !set_number(document, collision, "stiffness", 400, error) ||
+  double stiffness = options->body == SPORE_CENTRELINE_INTESTINE ? BOWEL_STIFFNESS : STIFFNESS;
+  if (!collision || !set_number(document, collision, "stiffness", stiffness, error) ||
       !set_number(document, collision, "damping", 0.3, error) ||
       !spore_document_set_text(document, collision, "self", "true", error))
     return FALSE;
@@ -208,7 +212,7 @@ gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, 
                                     const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
                                     SporeObject *mesh, GError **error) {
   return empty(document, body, error) && insert_model(document, body, line, curve, options, error) &&
-         insert_units(document, body, mesh, error) && hold(document, body, curve, options->body, error);
+         insert_units(document, body, options, mesh, error) && hold(document, body, curve, options->body, error);
 }
 
 SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *name, const SporeCurve *curve,
