@@ -53,7 +53,10 @@ static void add_own(SporeBudgetSearch *search, double dt_s) {
 }
 
 static void prepare(Table *table, gsize count, double limit) {
-  table->report.interval_s = 1e-3;
+  static SporeAccuracyFit method = {.method = {SPORE_INTEGRATOR_IMPLICIT_EULER, -1, -1}};
+  static SporeAccuracyPoint studied = {.level = -1, .dt_s = 1e-3}; /* the scene as it is, and the longest step */
+  table->report = (SporeAccuracyReport){
+      .interval_s = 1e-3, .methods = &method, .method_count = 1, .points = &studied, .point_count = 1};
   table->search = (SporeBudgetSearch){.result = &table->result,
                                       .report = &table->report,
                                       .count = count,
