@@ -30,6 +30,10 @@ bool spore_mapping_init_identity(SporeMapping *mapping, size_t count) {
   return true;
 }
 
+bool spore_mapping_goes_on(const SporeCancel *cancel, SporeError *error) {
+  return !spore_cancel_asked(cancel) || spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+}
+
 static bool row_is_affine(const double *weights, size_t width) {
   double sum = 0;
   for (size_t k = 0; k < width; k++) sum += weights[k];

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/base/cancel.h"
 #include "core/base/error.h"
 #include "core/math/quat.h"
 #include "core/body/line_frames.h"
@@ -54,6 +55,8 @@ bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, con
                                SporeError *error);
 /* Frees the arrays and zeroes the mapping. A zeroed mapping is allowed. */
 void spore_mapping_clear(SporeMapping *mapping);
+/* What a model asks before it maps one more point. False: the mapping was cancelled, and *error says so. */
+bool spore_mapping_goes_on(const SporeCancel *cancel, SporeError *error);
 
 /* Finds by which tetrahedra the points of a linear mapping move, before a cut splits nodes. For each entry of the
  * mapping, (*places)[entry] is the index in `corners` of a corner that is the entry's block; all entries of a row get

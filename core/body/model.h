@@ -237,8 +237,10 @@ struct SporeModelType {
                       double *f);
   /* Internal potential energy, J: force(q, q, 0) = -dU/dq. */
   double (*potential)(const SporeModel *model, const double *q);
-  /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
-  bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
+  /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. cancel ends it,
+   * with SPORE_ERROR_CANCELLED: a point may take as long as there are nodes, so that cancel is asked before each. */
+  bool (*map)(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+              SporeMapping *mapping, SporeError *error);
 
   /* Required of a model with a frame: its inertia at q, world axes, symmetric positive definite, kg m^2. */
   SporeMat3 (*inertia)(const SporeModel *model, const double *q);

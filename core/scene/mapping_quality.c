@@ -60,7 +60,7 @@ static gboolean measure_motion(const SporeModel *model, const Points *points, Sp
   quality->framed = points->mesh && model->type->line && model->type->line->map_drawn;
   for (gsize i = 0; i < points->count; i++) spore_vec3_store(places + 3 * i, point(points, i));
   gboolean done = (quality->framed ? model->type->line->map_drawn(model, points->mesh, &mapping, &fault)
-                                   : model->type->map(model, places, points->count, &mapping, &fault)) &&
+                                   : model->type->map(model, places, points->count, NULL, &mapping, &fault)) &&
                   spore_mapping_measure(model, &mapping, places, &quality->error, &fault);
   if (done && quality->framed) quality->crowd_place = point(points, quality->error.crowd_point);
   spore_mapping_clear(&mapping);

@@ -50,7 +50,7 @@ static gboolean look_at(const Pinned *pinned, const double *samples, gsize count
   SporeMapping mapping;
   const double *points = (const double *)(const void *)chosen->data;
   if (chosen->len == 0) return FALSE;
-  if (!pinned->model->type->map(pinned->model, points, chosen->len, &mapping, NULL)) return FALSE;
+  if (!pinned->model->type->map(pinned->model, points, chosen->len, NULL, &mapping, NULL)) return FALSE;
   for (gsize i = 0; i < chosen->len; i++) {
     if (stands_still(pinned, &mapping, i)) measured->still = TRUE;
     else measured->moves_m = fmax(measured->moves_m, depth_of(pinned, points + 3 * i));

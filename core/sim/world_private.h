@@ -116,6 +116,9 @@ static inline size_t spore_world_spring_count(const SporeWorld *world) {
 /* state/bodies.c */
 /* Calls `call` for the body's model at each of its levels of detail. */
 void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user);
+/* As spore_world_map_lod, with what may end it. */
+bool spore_body_map(const SporeWorld *world, uint32_t body, SporeLodGrade level, const double *points, size_t count,
+                    const SporeCancel *cancel, SporeMapping *mapping, SporeError *error);
 
 /* contact/contacts.c: maps the centres of the set onto the body's present level, into its collision unit.
  * set: may be NULL. */

@@ -159,12 +159,12 @@ static SporeTriangleMesh without_flat(const SporeTriangleMesh *mesh, uint32_t **
 }
 
 static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
-                       double slack, uint32_t *blocks, double *weights, SporeError *error) {
+                       const SporeCancel *cancel, double slack, uint32_t *blocks, double *weights, SporeError *error) {
   SporeBvh *bvh = spore_bvh_create(mesh, error);
   if (!bvh) return false;
   double size = size_of(mesh);
   bool good = true;
-  for (size_t i = 0; good && i < count; i++) {
+  for (size_t i = 0; good && i < count && (good = spore_mapping_goes_on(cancel, error)); i++) {
     Row row;
     good = map_point(mesh, core, bvh, size, slack, points + 3 * i, i, &row, error);
     memcpy(blocks + WIDTH * i, row.block, sizeof row.block);
@@ -175,7 +175,7 @@ static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, con
 }
 
 bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
-                       double slack, SporeMapping *mapping, SporeError *error) {
+                       const SporeCancel *cancel, double slack, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
   if (is_identity(mesh, points, count)) return spore_mapping_init_identity(mapping, count);
@@ -184,7 +184,7 @@ bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, con
   SporeTriangleMesh view = without_flat(mesh, &triangles);
   bool good = triangles && blocks && weights;
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(&view, core, points, count, slack, blocks, weights, error) &&
+  good = good && map_points(&view, core, points, count, cancel, slack, blocks, weights, error) &&
          spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
   spore_free(triangles);
   spore_free(blocks);

@@ -17,6 +17,6 @@
  * triangle that makes the sum least; NULL: there is none. A matrix that couples the core with every vertex has room for
  * what hangs on such a point. */
 bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
-                       double slack, SporeMapping *mapping, SporeError *error);
+                       const SporeCancel *cancel, double slack, SporeMapping *mapping, SporeError *error);
 
 #endif

@@ -161,9 +161,10 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_finite_differences);
-  return spore_lattice_map(&((const Body *)model)->lattice, points, count, mapping, error);
+  return spore_lattice_map(&((const Body *)model)->lattice, points, count, cancel, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

@@ -64,8 +64,8 @@ void spore_lattice_find_blocks(SporeLattice *lattice, const SporeBlockMatrix *ma
 void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegions *regions, double *mass);
 /* A point follows the corners of its cell by trilinear weights; one in no cell the nearest cell, extended affinely. The
  * nodes in their order give the identity. */
-bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, SporeMapping *mapping,
-                       SporeError *error);
+bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, const SporeCancel *cancel,
+                       SporeMapping *mapping, SporeError *error);
 
 /* f += forces of a slab, the viscous ones with F and W as they are in shape. */
 SPORE_DECLARE_KERNEL(void, spore_lattice_force, const SporeLattice *lattice, size_t slab, SporeElasticity elasticity,

@@ -72,8 +72,8 @@ static void weigh(const Located *point, double weights[8]) {
   }
 }
 
-bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, SporeMapping *mapping,
-                       SporeError *error) {
+bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, const SporeCancel *cancel,
+                       SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   if (count == lattice->node_count && !memcmp(points, lattice->rest, 3 * count * sizeof *points))
     return spore_mapping_init_identity(mapping, count);
@@ -81,7 +81,7 @@ bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t
   double *weights = SPORE_NEW_ARRAY(double, 8 * count);
   bool made = nodes && weights;
   if (!made) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  for (size_t i = 0; made && i < count; i++) {
+  for (size_t i = 0; made && i < count && (made = spore_mapping_goes_on(cancel, error)); i++) {
     Located point = locate(&lattice->voxels, points + 3 * i);
     for (unsigned c = 0; c < 8; c++)
       nodes[8 * i + c] = spore_lattice_corner(lattice, point.cell[0], point.cell[1], point.cell[2], c);

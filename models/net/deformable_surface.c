@@ -213,10 +213,11 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
   return spore_surface_skin(&((const Surface *)model)->mesh, triangles, count);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
-  return spore_surface_map(&body->mesh, &body->core.centre, points, count, model->map_slack, mapping, error);
+  return spore_surface_map(&body->mesh, &body->core.centre, points, count, cancel, model->map_slack, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

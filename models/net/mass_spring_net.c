@@ -183,9 +183,10 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
   return spore_surface_skin(&((const Net *)model)->mesh, triangles, count);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_mass_spring_net);
-  return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, model->map_slack, mapping, error);
+  return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, cancel, model->map_slack, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

@@ -172,9 +172,10 @@ static bool find_corners(const double *particles, size_t count, double spacing, 
 }
 
 static bool map_points(const double *particles, size_t particle_count, double spacing, const double *points,
-                       size_t count, uint32_t *blocks, double *weights, SporeError *error) {
+                       size_t count, const SporeCancel *cancel, uint32_t *blocks, double *weights, SporeError *error) {
   for (size_t i = 0; i < count; i++) {
     Corners corners;
+    if (!spore_mapping_goes_on(cancel, error)) return false;
     if (!find_corners(particles, particle_count, spacing, spore_vec3_load(points + 3 * i), &corners))
       return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                              _("point %zu is at no particle, and the particles all lie in one plane; expected points "
@@ -187,14 +188,15 @@ static bool map_points(const double *particles, size_t particle_count, double sp
 }
 
 bool spore_particle_map(const double *particles, size_t particle_count, double spacing, const double *points,
-                        size_t count, SporeMapping *mapping, SporeError *error) {
+                        size_t count, const SporeCancel *cancel, SporeMapping *mapping, SporeError *error) {
   assert(spacing > 0 && (count == 0 || points));
   if (count == particle_count && memcmp(points, particles, 3 * count * sizeof *points) == 0)
     return spore_mapping_init_identity(mapping, count);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, 4 * count);
   double *weights = SPORE_NEW_ARRAY(double, 4 * count);
-  bool made = blocks && weights ? map_points(particles, particle_count, spacing, points, count, blocks, weights, error)
-                                : no_memory(error);
+  bool made = blocks && weights
+                  ? map_points(particles, particle_count, spacing, points, count, cancel, blocks, weights, error)
+                  : no_memory(error);
   if (made) made = spore_mapping_init_linear(mapping, count, 4, blocks, weights, error);
   spore_free(blocks);
   spore_free(weights);

@@ -16,6 +16,6 @@ bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, const 
  * themselves, in their order, give the identity. `spacing`: of the particles, m. Refuses a point where they all lie in
  * one plane. */
 bool spore_particle_map(const double *particles, size_t particle_count, double spacing, const double *points,
-                        size_t count, SporeMapping *mapping, SporeError *error);
+                        size_t count, const SporeCancel *cancel, SporeMapping *mapping, SporeError *error);
 
 #endif

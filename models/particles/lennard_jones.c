@@ -225,10 +225,11 @@ static double potential(const SporeModel *model, const double *q) {
   return SPORE_KERNEL(spore_lennard_jones_energy)(&fluid->memory->list, &fluid->law);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
-  return spore_particle_map(fluid->rest, model->block_count, fluid->sigma, points, count, mapping, error);
+  return spore_particle_map(fluid->rest, model->block_count, fluid->sigma, points, count, cancel, mapping, error);
 }
 
 /* As wide as the distance at which two particles begin to repel each other more than they attract: sigma, where the

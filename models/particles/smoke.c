@@ -136,10 +136,11 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
   for (size_t i = 3 * n; i < 4 * n; i++) q1[i] = q[i] + h;
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_smoke);
   const Smoke *smoke = (const Smoke *)model;
-  return spore_particle_map(smoke->rest, model->node_count, smoke->spacing, points, count, mapping, error);
+  return spore_particle_map(smoke->rest, model->node_count, smoke->spacing, points, count, cancel, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *data, SporeError *error) {

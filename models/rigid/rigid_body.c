@@ -143,7 +143,8 @@ static double longest_turn(const SporeModel *model, const double *q, const doubl
                                      spore_vec3_load(v + 3));
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_rigid_body);
   assert(count == 0 || points);
   const RigidBody *body = (const RigidBody *)model;

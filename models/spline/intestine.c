@@ -192,10 +192,11 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   stiffness(model, &at, matrix);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_intestine);
-  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, model->map_slack, false, mapping,
-                               error);
+  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, cancel, model->map_slack, false,
+                               mapping, error);
 }
 
 static bool map_drawn(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping,

@@ -329,8 +329,9 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, cons
 }
 
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
-                           double slack, bool follows, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_map(line->knots, line->rest, arms, points, count, slack, follows, mapping, error);
+                           const SporeCancel *cancel, double slack, bool follows, SporeMapping *mapping,
+                           SporeError *error) {
+  return spore_spline_map(line->knots, line->rest, arms, points, count, cancel, slack, follows, mapping, error);
 }
 
 bool spore_spline_line_map_drawn(const SporeSplineLine *line, const SporeModel *model, bool arms,

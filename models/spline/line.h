@@ -58,7 +58,8 @@ void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *mad
 double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLine *made, size_t span);
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
-                           double slack, bool follows, SporeMapping *mapping, SporeError *error);
+                           const SporeCancel *cancel, double slack, bool follows, SporeMapping *mapping,
+                           SporeError *error);
 /* The slot map_drawn of a model that begins with the line; arms: it has them behind the control points, else a root if
  * it has a frame. */
 bool spore_spline_line_map_drawn(const SporeSplineLine *line, const SporeModel *model, bool arms,

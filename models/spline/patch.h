@@ -67,7 +67,7 @@ size_t spore_patch_set_rest(SporePatch *patch, const double *control, double *sh
  * points of its cell; a point off the sheet follows as few more control points around it as reproduce its offset.
  * Refused where the sheet is too flat for that. */
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
-                     double slack, SporeMapping *mapping, SporeError *error);
+                     const SporeCancel *cancel, double slack, SporeMapping *mapping, SporeError *error);
 /* Points of the sheet, 3 each, even by its parameters and four a span each way. False: no memory. */
 bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, double **points, size_t *count);
 

@@ -152,12 +152,12 @@ static bool map_point(const Sheet *sheet, const double *point, size_t index, Row
                          off);
 }
 
-static bool map_points(Sheet *sheet, const double *points, size_t count, uint32_t *blocks, double *weights,
-                       SporeError *error) {
+static bool map_points(Sheet *sheet, const double *points, size_t count, const SporeCancel *cancel, uint32_t *blocks,
+                       double *weights, SporeError *error) {
   take_samples(sheet);
   for (size_t i = 0; i < count; i++) {
     Row row;
-    if (!map_point(sheet, points + 3 * i, i, &row, error)) return false;
+    if (!spore_mapping_goes_on(cancel, error) || !map_point(sheet, points + 3 * i, i, &row, error)) return false;
     for (size_t n = 0; n < WIDTH; n++) {
       blocks[WIDTH * i + n] = row.block[n < row.used ? n : 0];
       weights[WIDTH * i + n] = n < row.used ? row.weight[n] : 0;
@@ -167,7 +167,7 @@ static bool map_points(Sheet *sheet, const double *points, size_t count, uint32_
 }
 
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
-                     double slack, SporeMapping *mapping, SporeError *error) {
+                     const SporeCancel *cancel, double slack, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
   Sheet sheet = {{span_u, span_v}, control, spore_points_size(control, (span_u + 3) * (span_v + 3)), 0, NULL};
@@ -177,7 +177,7 @@ bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const 
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = sheet.sample && blocks && weights;
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(&sheet, points, count, blocks, weights, error) &&
+  good = good && map_points(&sheet, points, count, cancel, blocks, weights, error) &&
          spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
   spore_free(sheet.sample);
   spore_free(blocks);

@@ -65,7 +65,8 @@ void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matri
  * line is too straight for that, a point no further off than slack (m) is put onto the line, and any other point is
  * refused. follows: the rows may be made anew for other knots. */
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
-                      size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error);
+                      size_t count, const SporeCancel *cancel, double slack, bool follows, SporeMapping *mapping,
+                      SporeError *error);
 /* Makes them, for the same line and arms by other knots. Allocates nothing. */
 void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping);
 /* SPORE_SPLINE_SAMPLES points of the line a span, and its end; 3 each; room for `more` behind them, which are not

@@ -252,10 +252,11 @@ static const char *notice(const SporeModel *model, const double *q) {
            "turn; set more control points");
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_spline_1d);
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack,
+  return spore_spline_line_map(&body->line, body->twist.rest, points, count, cancel, model->map_slack,
                                body->changes.made != NULL, mapping, error);
 }
 

@@ -148,10 +148,11 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   stiffness(model, &at, matrix);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_spline_2d);
   const Spline2d *sheet = (const Spline2d *)model;
-  return spore_patch_map(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count, model->map_slack,
+  return spore_patch_map(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count, cancel, model->map_slack,
                          mapping, error);
 }
 

@@ -147,7 +147,8 @@ void spore_spline_map_follow(SporeSplineKnots knots, const double *control, cons
 }
 
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
-                      size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error) {
+                      size_t count, const SporeCancel *cancel, double slack, bool follows, SporeMapping *mapping,
+                      SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
   Spline spline = {knots, control, arms, spore_points_size(control, knots.span_count + 3), slack};
@@ -157,7 +158,7 @@ bool spore_spline_map(SporeSplineKnots knots, const double *control, const doubl
   double *anchors = follows ? SPORE_NEW_ARRAY(double, 4 * count) : NULL;
   bool good = blocks && weights && (anchors || !follows);
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  for (size_t i = 0; good && i < count; i++) {
+  for (size_t i = 0; good && i < count && (good = spore_mapping_goes_on(cancel, error)); i++) {
     Row row;
     good = map_point(&spline, points + 3 * i, i, anchors ? anchors + 4 * i : NULL, &row, error);
     memcpy(blocks + WIDTH * i, row.block, sizeof row.block);

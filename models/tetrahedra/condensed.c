@@ -191,10 +191,11 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
   return spore_linear_solid_create(build, geometry, fields, error);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_condensed_tetrahedra);
-  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, model->map_slack, mapping,
-                           error);
+  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, cancel, model->map_slack,
+                           mapping, error);
 }
 
 const SporeModelType spore_condensed_tetrahedra = {

@@ -36,9 +36,10 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
   return spore_linear_solid_create(build, geometry, fields, error);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_linear_tetrahedra);
-  return spore_tetrahedra_map(&((const SporeLinearSolid *)model)->nodes, points, count, mapping, error);
+  return spore_tetrahedra_map(&((const SporeLinearSolid *)model)->nodes, points, count, cancel, mapping, error);
 }
 
 const SporeModelType spore_linear_tetrahedra = {

@@ -163,10 +163,11 @@ static SporeBvh *boundary_of(const SporeTetrahedralMesh *mesh, SporeError *error
 }
 
 static bool map_points(const SporeTetrahedronNodes *nodes, const Grid *grid, const double *points, size_t count,
-                       uint32_t *blocks, double *weights, SporeError *error) {
+                       const SporeCancel *cancel, uint32_t *blocks, double *weights, SporeError *error) {
   const SporeTetrahedralMesh *mesh = &nodes->mesh;
   SporeBvh *boundary = NULL;
-  for (size_t i = 0; i < count; i++) {
+  bool good = true;
+  for (size_t i = 0; i < count && (good = spore_mapping_goes_on(cancel, error)); i++) {
     SporeVec3 p = spore_vec3_load(points + 3 * i), nearest = p;
     uint32_t tetrahedron = 0;
     if (locate(grid, mesh, p, &tetrahedron) < -1e-9) {
@@ -177,11 +178,11 @@ static bool map_points(const SporeTetrahedronNodes *nodes, const Grid *grid, con
     weigh(nodes, tetrahedron, nearest, p, blocks + nodes->per_element * i, weights + nodes->per_element * i);
   }
   spore_bvh_free(boundary);
-  return true;
+  return good;
 }
 
-bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count, SporeMapping *mapping,
-                          SporeError *error) {
+bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count,
+                          const SporeCancel *cancel, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   if (count == nodes->count && !memcmp(points, nodes->rest, 3 * count * sizeof *points))
     return spore_mapping_init_identity(mapping, count);
@@ -190,7 +191,7 @@ bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *poin
   double *weights = SPORE_NEW_ARRAY(double, nodes->per_element *count);
   bool good = blocks && weights && grid_create(&grid, &nodes->mesh);
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(nodes, &grid, points, count, blocks, weights, error) &&
+  good = good && map_points(nodes, &grid, points, count, cancel, blocks, weights, error) &&
          spore_mapping_init_linear(mapping, count, nodes->per_element, blocks, weights, error);
   grid_clear(&grid);
   spore_free(blocks);

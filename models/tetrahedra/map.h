@@ -13,7 +13,7 @@ double spore_tetrahedron_gradients(const double *vertices, const uint32_t corner
 /* A point follows the nodes of the tetrahedron that holds it by their shape functions. A point outside follows the
  * tetrahedron at the nearest point of the boundary, extended affinely from there. Nodes in their order make an identity
  * mapping. */
-bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count, SporeMapping *mapping,
-                          SporeError *error);
+bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count,
+                          const SporeCancel *cancel, SporeMapping *mapping, SporeError *error);
 
 #endif

@@ -215,8 +215,9 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
   return spore_tetrahedral_mesh_boundary(&((const Body *)model)->nodes.mesh, triangles, count);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_tetrahedra_map(&((const Body *)model)->nodes, points, count, mapping, error);
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
+  return spore_tetrahedra_map(&((const Body *)model)->nodes, points, count, cancel, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

@@ -42,7 +42,7 @@ static double *points_of(const Specimen *specimen, Slot slot, GRand *random, int
 
 static bool try_map(const SporeModel *model, Slot slot, const double *points, size_t count, SporeMapping *mapping,
                     SporeError *error) {
-  if (slot == MAP) return model->type->map(model, points, count, mapping, error);
+  if (slot == MAP) return model->type->map(model, points, count, NULL, mapping, error);
   const SporeTriangleMesh cloud = {.vertex_count = count, .vertices = (double *)points};
   return model->type->line->map_drawn(model, &cloud, mapping, error);
 }
@@ -219,6 +219,43 @@ static void check_without_memory_of(const Specimen *specimen, Slot slot) {
 static void check_without_memory(gconstpointer data) { check_without_memory_of(data, MAP); }
 static void check_without_memory_drawn(gconstpointer data) { check_without_memory_of(data, CARRY); }
 
+/* Counts how often it is asked, and says yes from the `at`-th time on. */
+typedef struct {
+  unsigned asked, at;
+} Asker;
+
+static bool answer(void *data) {
+  Asker *asker = data;
+  return ++asker->asked >= asker->at;
+}
+
+static gboolean has_nodes(const SporeModelType *type) { return strcmp(type->name, "rigid_body") != 0; }
+
+/* Mapping asks for each point, and ends where it is told to. */
+static void check_cancelled(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(5);
+  size_t count;
+  SporeMapping mapping;
+  double *points = points_of(specimen, MAP, random, 1, &count);
+  Asker asker = {0, UINT_MAX};
+  const SporeCancel cancel = {answer, &asker};
+  g_assert_true(model->type->map(model, points, count, &cancel, &mapping, NULL));
+  spore_mapping_clear(&mapping);
+  g_assert_cmpuint(asker.asked, ==, count);
+  for (unsigned at = 1; at <= count; at += (unsigned)count / 4) {
+    SporeError error = SPORE_ERROR_INIT;
+    asker = (Asker){0, at};
+    g_assert_false(model->type->map(model, points, count, &cancel, &mapping, &error));
+    g_assert_cmpint(error.code, ==, SPORE_ERROR_CANCELLED);
+    g_assert_cmpuint(asker.asked, ==, at);
+  }
+  g_free(points);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
 static gboolean carries(const SporeModelType *type) { return type->line && type->line->map_drawn; }
 static gboolean has_spheres(const SporeModelType *type) { return type->spheres != NULL; }
 
@@ -331,6 +368,7 @@ int main(int argc, char **argv) {
   specimen_add_tests("/conformance/virtual_work", check_virtual_work, NULL);
   specimen_add_tests("/conformance/measure", check_measure, NULL);
   specimen_add_tests("/conformance/map_without_memory", check_without_memory, NULL);
+  specimen_add_tests("/conformance/map_cancelled", check_cancelled, has_nodes);
   specimen_add_tests("/conformance/drawn/rest", check_rest_drawn, carries);
   specimen_add_tests("/conformance/drawn/virtual_work", check_virtual_work_drawn, carries);
   specimen_add_tests("/conformance/drawn/measure", check_measure_drawn, carries);

@@ -93,7 +93,8 @@ static double potential(const SporeModel *model, const double *q) {
   return energy;
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   const Chain *chain = (const Chain *)model;
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, count);
   double *weights = SPORE_NEW_ARRAY(double, count);

@@ -75,7 +75,8 @@ static void sweep(SporeModel *model, const SporeSweep *at) {
   spore_springs_sweep(chain->springs, chain->count, at);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   const Chain *chain = (const Chain *)model;
   g_assert_true(count == 0 ||
                 (count == model->block_count && !memcmp(points, chain->rest, 3 * count * sizeof(double))));

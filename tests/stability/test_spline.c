@@ -170,7 +170,7 @@ static void catenary(void) {
     SporeVec3 middle = {0, 0, 0};
     SporeMapping mapping; /* the middle of the line at rest */
     double bottom[3] = {0, -radius, 0};
-    g_assert_true(statics.model->type->map(statics.model, bottom, 1, &mapping, NULL));
+    g_assert_true(statics.model->type->map(statics.model, bottom, 1, NULL, &mapping, NULL));
     middle = spore_mapping_position(&mapping, 0, statics.q);
     spore_mapping_clear(&mapping);
     down = -middle.y;
@@ -256,7 +256,7 @@ static void bowel_pulled_aside(void) {
     statics.held[root] = statics.held[root + 1] = TRUE;
     double middle[3] = {0.5 * length, 0, 0}, force[3] = {0, -load, 0};
     SporeMapping mapping;
-    g_assert_true(model->type->map(model, middle, 1, &mapping, NULL));
+    g_assert_true(model->type->map(model, middle, 1, NULL, &mapping, NULL));
     spore_mapping_add_force(&mapping, 0, statics.q, spore_vec3_load(force), statics.load);
     double left = statics_balance(&statics), down = -spore_mapping_position(&mapping, 0, statics.q).y;
     double now = fabs(down / expected - 1);
@@ -280,13 +280,13 @@ static void points_as_written(void) {
   const double rounded[3] = {0.0321, 4.4e-8, 0}, beside[3] = {0.0321, 1e-4, 0};
   SporeMapping mapping;
   SporeError error = SPORE_ERROR_INIT;
-  g_assert_true(model->type->map(model, rounded, 1, &mapping, &error));
+  g_assert_true(model->type->map(model, rounded, 1, NULL, &mapping, &error));
   double heaviest = 0;
   for (uint32_t i = mapping.row_start[0]; i < mapping.row_start[1]; i++)
     heaviest = fmax(heaviest, fabs(mapping.weight[i]));
   g_assert_cmpfloat(heaviest, <, 1);
   spore_mapping_clear(&mapping);
-  g_assert_false(model->type->map(model, beside, 1, &mapping, &error));
+  g_assert_false(model->type->map(model, beside, 1, NULL, &mapping, &error));
   g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
   model->type->destroy(model);
 }

@@ -45,7 +45,7 @@ static SporeVec3 point_of(const Statics *statics, SporeVec3 at) {
   SporeMapping mapping;
   double point[3];
   spore_vec3_store(point, at);
-  g_assert_true(statics->model->type->map(statics->model, point, 1, &mapping, NULL));
+  g_assert_true(statics->model->type->map(statics->model, point, 1, NULL, &mapping, NULL));
   SporeVec3 found = spore_mapping_position(&mapping, 0, statics->q);
   spore_mapping_clear(&mapping);
   return found;

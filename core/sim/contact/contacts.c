@@ -97,7 +97,8 @@ bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphere
   double *points = SPORE_NEW_ARRAY(double, 3 * count);
   if (!points) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   for (size_t s = 0; s < count; s++) memcpy(points + 3 * s, set->spheres + 4 * s, 3 * sizeof *points);
-  bool mapped = spore_world_map(world, index, points, count, &body->collision.spheres, error);
+  bool mapped =
+      spore_body_map(world, index, body->grade, points, count, world->cancel, &body->collision.spheres, error);
   spore_free(points);
   if (mapped) return true;
   char place[200];

@@ -115,11 +115,12 @@ static bool map_level(SporeWorld *world, uint32_t index, int k, const double *al
   const SporeBody *body = &world->bodies[index];
   SporeLodLevel *level = &body->lod->level[k];
   SporeError reason = SPORE_ERROR_INIT;
-  bool mapped =
-      spore_world_map_lod(world, index, (SporeLodGrade)k, all, body->lod->sample_count, &level->samples, &reason);
+  bool mapped = spore_body_map(world, index, (SporeLodGrade)k, all, body->lod->sample_count, world->cancel,
+                               &level->samples, &reason);
   if (mapped && level->samples.kind == SPORE_MAPPING_LINEAR)
     return (find_nearest(level, all) && find_diagonal(body->lod, level)) || no_memory(error);
   if (reason.code == SPORE_ERROR_MEMORY) return no_memory(error);
+  if (reason.code == SPORE_ERROR_CANCELLED) return spore_error_set(error, reason.code, NULL, "%s", reason.message);
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", body->name);
   return spore_error_set(error, SPORE_ERROR_INPUT, place,

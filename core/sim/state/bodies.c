@@ -30,15 +30,20 @@ static bool map_fixed(const SporeBody *body, const double *points, size_t count,
   return true;
 }
 
-bool spore_world_map_lod(const SporeWorld *world, uint32_t index, SporeLodGrade level, const double *points,
-                         size_t count, SporeMapping *mapping, SporeError *error) {
+bool spore_body_map(const SporeWorld *world, uint32_t index, SporeLodGrade level, const double *points, size_t count,
+                    const SporeCancel *cancel, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   const SporeBody *body = &world->bodies[index];
   const SporeModel *model = spore_world_lod_model(world, index, level);
   assert(body->role != SPORE_PASSIVE || model);
   if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
   if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
-  return model->type->map(model, points, count, mapping, error);
+  return model->type->map(model, points, count, cancel, mapping, error);
+}
+
+bool spore_world_map_lod(const SporeWorld *world, uint32_t body, SporeLodGrade level, const double *points,
+                         size_t count, SporeMapping *mapping, SporeError *error) {
+  return spore_body_map(world, body, level, points, count, NULL, mapping, error);
 }
 
 bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLodGrade level, const SporeTriangleMesh *mesh,

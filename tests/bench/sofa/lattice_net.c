@@ -111,7 +111,8 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   tangent(model, &at, matrix);
 }
 
-static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
+                SporeMapping *mapping, SporeError *error) {
   g_assert_true(count == 0 || count == model->block_count); /* a sphere a node */
   return spore_mapping_init_identity(mapping, count);
 }
