@@ -5,6 +5,7 @@
 
 #include "core/author/generator.h"
 #include "models/registry.h"
+#include "ui/sim/session-work.h"
 #include "ui/spore-window.h"
 
 struct _SporeApplication {
@@ -115,6 +116,12 @@ static void spore_application_open(GApplication *application, GFile **files, int
   g_action_group_activate_action(G_ACTION_GROUP(window_to_fill(self)), "import-dialog-with", names);
 }
 
+/* Works that were cancelled end before the program does. */
+static void spore_application_shutdown(GApplication *application) {
+  G_APPLICATION_CLASS(spore_application_parent_class)->shutdown(application);
+  spore_session_works_wait();
+}
+
 static void spore_application_finalize(GObject *object) {
   SporeApplication *self = SPORE_APPLICATION(object);
   if (self->schema) spore_schema_free(self->schema);
@@ -128,6 +135,7 @@ static void spore_application_class_init(SporeApplicationClass *class) {
   G_APPLICATION_CLASS(class)->startup = spore_application_startup;
   G_APPLICATION_CLASS(class)->activate = spore_application_activate;
   G_APPLICATION_CLASS(class)->open = spore_application_open;
+  G_APPLICATION_CLASS(class)->shutdown = spore_application_shutdown;
 }
 
 static void spore_application_init(SporeApplication *self) {}

@@ -31,6 +31,7 @@ static void history_changed(SporeWindow *self) {
 }
 
 static void player_changed(SporeWindow *self) {
+  spore_window_show_job(self);
   gboolean playing = spore_player_is_playing(self->player);
   gtk_image_set_from_icon_name(GTK_IMAGE(self->play_image),
                                playing ? "media-playback-pause-symbolic" : "media-playback-start-symbolic",
@@ -51,7 +52,10 @@ static void player_failed(SporeWindow *self, const char *message) { spore_window
 void spore_window_release_document(SporeWindow *self) {
   if (self->job) spore_job_cancel(self->job);
   if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
-  if (self->player) g_signal_handlers_disconnect_by_data(self->player, self);
+  if (self->player) {
+    g_signal_handlers_disconnect_by_data(self->player, self);
+    spore_player_close(self->player);
+  }
   g_clear_object(&self->player);
   g_clear_object(&self->document);
   spore_window_set_generator(self);
@@ -69,6 +73,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(spore_window_update_actions), self,
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->player, "progressed", G_CALLBACK(spore_window_show_job), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "failed", G_CALLBACK(player_failed), self, G_CONNECT_SWAPPED);
   spore_viewport_set_document(SPORE_VIEWPORT(self->viewport), self->document, self->player);

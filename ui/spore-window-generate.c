@@ -204,6 +204,7 @@ static void act_cancel_job(GSimpleAction *action, GVariant *parameter, gpointer 
   SporeWindow *self = data;
   if (self->job) spore_job_cancel(self->job);
   spore_generator_cancel(self->generator);
+  spore_player_cancel(self->player);
 }
 
 static void applied(SporeWindow *self) {

@@ -43,15 +43,24 @@ gboolean spore_window_failed(SporeWindow *self, const GError *error) {
 
 /* Jobs. */
 
+/* The job that is shown: one at a time, those that the user began by name first. */
+static SporeJob *shown_job(SporeWindow *self) {
+  SporeJob *job = self->job;
+  if (!job && self->generator) job = spore_generator_get_job(self->generator);
+  return !job && self->player ? spore_player_get_job(self->player) : job;
+}
+
 void spore_window_show_job(SporeWindow *self) {
-  SporeJob *job = self->job || !self->generator ? self->job : spore_generator_get_job(self->generator);
+  SporeJob *job = shown_job(self);
   gtk_widget_set_visible(self->job_box, job != NULL);
   if (!job) return;
   g_autofree char *stage = spore_job_get_stage(job);
   g_autofree char *text =
       *stage ? g_strdup_printf("%s: %s", spore_job_get_title(job), stage) : g_strdup(spore_job_get_title(job));
   gtk_label_set_text(GTK_LABEL(self->job_label), text);
-  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(self->job_bar), spore_job_get_fraction(job));
+  double fraction = spore_job_get_fraction(job);
+  if (fraction > 0) gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(self->job_bar), fraction);
+  else gtk_progress_bar_pulse(GTK_PROGRESS_BAR(self->job_bar));
 }
 
 static void job_finished(SporeJob *job, SporeWindow *self) {
@@ -167,7 +176,8 @@ static void update_generator(SporeWindow *self, gboolean bodies) {
   set_enabled(self, "pick-ends", spore_window_picks_ends(self));
   set_enabled(self, "automatic-ends", spore_window_picks_ends(self));
   set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
-  set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
+  set_enabled(self, "cancel-job",
+              self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player));
 }
 
 static void update_study(SporeWindow *self, gboolean bodies) {

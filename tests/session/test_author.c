@@ -24,7 +24,6 @@
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
-#include "ui/sim/spore-player.h"
 
 static const char tetrahedron_off[] =
     "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
@@ -591,62 +590,10 @@ static void test_import_refuses(Fixture *fixture, gconstpointer data) {
   g_rmdir(folder);
 }
 
-/* Player. */
-
 static void make_soft(Fixture *fixture) {
   SporeObject *body = add_organ(fixture);
   use_spheres(fixture, body, 0.02);
   g_assert_true(spore_edit_set_model(fixture->document, body, "mass_spring_net", NULL));
-}
-
-static guint64 step_of(SporePlayer *player) { return spore_session_snapshot(spore_player_get_session(player))->step; }
-
-static void settle(void) {
-  while (g_main_context_iteration(NULL, FALSE)) continue;
-}
-
-static void test_player_follows_edits(Fixture *fixture, gconstpointer data) {
-  make_soft(fixture);
-  g_autofree char *before = text_of(fixture);
-  g_autoptr(SporePlayer) player = spore_player_new(fixture->editor);
-  g_assert_null(spore_player_get_session(player));
-  spore_player_step(player);
-  g_assert_cmpuint(step_of(player), ==, 1);
-  /* A live property goes into the running world. */
-  SporeSession *session = spore_player_get_session(player);
-  g_assert_true(spore_edit_set_property(fixture->document, "environment", "gravity", "0 -1 0", NULL));
-  settle();
-  g_assert_true(spore_player_get_session(player) == session);
-  /* Another one makes a new world in the same state. */
-  double height = spore_session_snapshot(session)->q[1];
-  g_assert_true(spore_edit_set_property(fixture->document, "solver", "time_step", "0.003", NULL));
-  settle();
-  g_assert_nonnull(spore_player_get_session(player));
-  g_assert_cmpfloat(spore_session_snapshot(spore_player_get_session(player))->q[1], ==, height);
-  spore_player_step(player);
-  spore_player_reset(player);
-  g_assert_cmpuint(step_of(player), ==, 0);
-  /* At the start, an edit ends the simulation: what is seen is the scene. */
-  spore_document_undo(fixture->document);
-  settle();
-  g_assert_null(spore_player_get_session(player));
-  spore_document_undo(fixture->document);
-  g_autofree char *after = text_of(fixture);
-  g_assert_cmpstr(after, ==, before);
-}
-
-static void count_failure(SporePlayer *player, const char *message, guint *count) { (*count)++; }
-
-static void test_player_refuses(Fixture *fixture, gconstpointer data) {
-  SporeObject *body = add_organ(fixture);
-  g_assert_true(spore_document_set_text(fixture->document, body, "role", "passive", NULL)); /* without a model */
-  g_autoptr(SporePlayer) player = spore_player_new(fixture->editor);
-  guint failures = 0;
-  g_signal_connect(player, "failed", G_CALLBACK(count_failure), &failures);
-  spore_player_play(player);
-  g_assert_cmpuint(failures, ==, 1);
-  g_assert_null(spore_player_get_session(player));
-  g_assert_false(spore_player_is_playing(player));
 }
 
 /* Recovery. The lock is held by this process, so that only what was given up is found. */
@@ -751,8 +698,6 @@ int main(int argc, char **argv) {
       {"mapping-is-cancelled", test_mapping_is_cancelled},
       {"result-of-another-scene", test_result_of_another_scene},
       {"import-refuses", test_import_refuses},
-      {"player-follows-edits", test_player_follows_edits},
-      {"player-refuses", test_player_refuses},
       {"recovery", test_recovery},
       {"labels", test_labels},
   };

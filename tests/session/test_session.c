@@ -87,7 +87,7 @@ static guint64 loop_hash(Fixture *fixture, const SporeTrack *input, guint steps)
 
 static SporeSession *new_session(Fixture *fixture, int threads, const SporeTrack *input) {
   GError *error = NULL;
-  SporeSession *session = spore_session_new(fixture->document, threads, input, &error);
+  SporeSession *session = spore_session_new(fixture->document, threads, input, NULL, &error);
   g_assert_no_error(error);
   return session;
 }
@@ -334,19 +334,19 @@ static void test_long_step(Fixture *fixture, gconstpointer data) {
   SporeDocument *document = spore_scene_parse(fixture->schema, NULL, long_text, strlen(long_text), &error);
   g_assert_no_error(error);
   put(document, "sheet.off", g_strdup("OFF\n4 2 0\n0 0 0\n.1 0 0\n.1 .1 0\n0 .1 0\n3 0 1 2\n3 0 2 3\n"));
-  SporeSession *session = spore_session_new(document, 1, NULL, &error);
+  SporeSession *session = spore_session_new(document, 1, NULL, NULL, &error);
   g_assert_no_error(error);
   const SporeWorld *world = spore_session_simulation(session)->world;
   spore_session_pause(session);
   g_assert_true(spore_session_stands(session));
-  g_assert_false(spore_session_try_step(session));
+  g_assert_false(spore_session_try_step(session, 1));
   g_assert_false(spore_session_stands(session));
   spore_session_reset(session);
   g_assert_true(spore_session_stands(session));
   g_assert_false(spore_world_cancelled(world));
-  g_assert_false(spore_session_try_step(session));
+  g_assert_false(spore_session_try_step(session, 1));
   g_assert_false(spore_session_try_pause(session));
-  spore_session_give_up(session);
+  while (!spore_session_try_give_up(session)) continue;
   g_assert_true(spore_session_stands(session));
   g_assert_true(spore_world_cancelled(world));
   g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
@@ -358,7 +358,7 @@ static void test_refused_scene(Fixture *fixture, gconstpointer data) {
   g_autoptr(GError) error = NULL;
   SporeObject *probe = spore_document_by_path(fixture->document, "bodies/probe");
   g_assert_true(spore_document_set_text(fixture->document, probe, "role", "unmovable", NULL));
-  g_assert_null(spore_session_new(fixture->document, 1, NULL, &error));
+  g_assert_null(spore_session_new(fixture->document, 1, NULL, NULL, &error));
   g_assert_nonnull(error);
   g_assert_nonnull(strstr(error->message, "probe"));
 }

@@ -1242,6 +1242,46 @@ def long_step():
     return path
 
 
+def long_to_prepare():
+    """A scene that takes a minute or more to prepare: each of 40,000 spheres is compared with each of 100,000 particles."""
+    path = write_scene("prepared", '<lennard_jones particles="100000"/>')
+    (path.parent / "one.spheres").write_text("".join(f"{x / 2e6} 0.01 0.003 0.001\n" for x in range(40000)))
+    path.write_text(path.read_text().replace('time_step="0.004"', 'time_step="0.00005"'))
+    return path
+
+
+@check
+def prepares_in_the_background():
+    """while a simulation is prepared, the window shows how far it is, takes edits, and cancels."""
+    with start(long_to_prepare()) as editor:
+        ui.wait(lambda: editor.row("floor"), "the scene")
+        editor.act("play")
+        editor.find("label", "^Preparing the simulation")
+        editor.act("select", "s", "bodies/floor")
+        editor.act("rename", "s", "ground")
+        ui.wait(lambda: editor.row("ground"), "the edit")
+        editor.find("label", "^Preparing the simulation")
+        assert editor.enabled("pause") and not editor.enabled("reset")
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("play") and not editor.look("label", "^Preparing the simulation"), "the cancel")
+        assert editor.time_s() is None and not editor.message()
+
+
+@check
+def ends_while_it_prepares():
+    """the window's close and SIGTERM end an editor that prepares a simulation."""
+    for end, status in (lambda editor: editor.act("close"), 0), (lambda editor: editor.process.terminate(), -signal.SIGTERM):
+        with start(long_to_prepare()) as editor:
+            ui.wait(lambda: editor.row("floor"), "the scene")
+            editor.act("play")
+            editor.find("label", "^Preparing the simulation")
+            begun = processor_s(editor.process)
+            ui.wait(lambda: processor_s(editor.process) > begun + 1, "the preparing to be well under way")
+            end(editor)
+            ui.wait(lambda: editor.process.poll() is not None, "the editor to end")
+            assert editor.process.returncode == status, editor.process.returncode
+
+
 def processor_s(process):
     """Processor time that it took so far."""
     fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(") ", 1)[1].split()

@@ -31,6 +31,7 @@ static void decode_asset(SporeDocument *document, SporeObject *asset) {
   if (g_str_equal(element, "mesh")) spore_document_mesh(document, asset, NULL);
   if (g_str_equal(element, "spheres")) spore_document_spheres(document, asset, NULL);
   if (g_str_equal(element, "tetrahedra")) spore_document_tetrahedra(document, asset, NULL);
+  if (g_str_equal(element, "curve")) spore_document_curve(document, asset, NULL);
 }
 
 gboolean spore_open_work_run(gpointer data, const SporeProgress *progress, GError **error) {

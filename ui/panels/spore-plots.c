@@ -33,6 +33,7 @@ struct _SporePlots {
   GPtrArray *points; /* texts: BODY@X,Y,Z */
   char *chosen;      /* id of the group */
   gboolean filling;
+  gboolean asked; /* for a point, which waits for the simulation */
 
   /* What is drawn. */
   SporePlotPanel panel;
@@ -231,16 +232,23 @@ static gboolean tick(gpointer data) {
   return G_SOURCE_CONTINUE;
 }
 
+static void choose(SporePlots *self, const char *id) {
+  g_free(self->chosen);
+  self->chosen = g_strdup(id);
+}
+
 static void choice_changed(GtkComboBox *choice, SporePlots *self) {
   if (self->filling) return;
-  g_free(self->chosen);
-  self->chosen = g_strdup(gtk_combo_box_get_active_id(choice));
+  choose(self, gtk_combo_box_get_active_id(choice));
   refresh(self);
 }
 
+/* Without a simulation the choice is made as soon as one is prepared. */
 gboolean spore_plots_show(SporePlots *self, const char *quantity) {
-  if (!session_of(self) && self->player) spore_player_prepare(self->player);
-  return gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), quantity);
+  if (session_of(self)) return gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), quantity);
+  choose(self, quantity);
+  if (self->player) spore_player_prepare(self->player);
+  return TRUE;
 }
 
 /* Points. */
@@ -278,9 +286,14 @@ static gboolean stand_at_start(SporePlots *self) {
 }
 
 gboolean spore_plots_watch(SporePlots *self, const char *point, GError **error) {
-  if (!self->player || !spore_player_prepare(self->player)) return TRUE; /* the player has told why */
-  gboolean playing = stand_at_start(self);
   g_ptr_array_add(self->points, g_strdup(point));
+  if (!session_of(self)) {
+    choose(self, "watch");
+    self->asked = TRUE;
+    spore_player_prepare(self->player);
+    return TRUE;
+  }
+  gboolean playing = stand_at_start(self);
   gboolean watched = watch_points(self, error);
   if (watched) gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), "watch");
   if (playing) spore_player_play(self->player);
@@ -325,10 +338,14 @@ gboolean spore_plots_save(SporePlots *self, const char *file, GError **error) {
 
 /* Life. */
 
-/* Another world: its columns, and its points. */
+/* Another world: its columns, and its points. A point that an edit has made impossible goes without a word, one that
+ * was asked for in vain does not. */
 static void player_replaced(SporePlots *self) {
-  if (session_of(self) && self->points->len > 0) watch_points(self, NULL);
+  g_autoptr(GError) error = NULL;
+  if (session_of(self) && self->points->len > 0) watch_points(self, self->asked ? &error : NULL);
   else fill_groups(self);
+  self->asked = self->asked && !session_of(self);
+  if (error) spore_activate(GTK_WIDGET(self), "report", g_variant_new_string(error->message));
   refresh(self);
 }
 

@@ -20,7 +20,7 @@
 /* Steps between two looks at what was not solved. */
 #define STEPS_A_LOOK 16
 /* How long the window waits for a step that may take minutes. */
-#define PATIENCE_US (G_USEC_PER_SEC / 10)
+#define PATIENCE_US (G_USEC_PER_SEC / 20)
 
 typedef struct {
   double time_s;
@@ -54,7 +54,8 @@ struct SporeSession {
   guint recorder_count;
   GThread *thread;
   SporeCancel cancel;
-  gint ending; /* the step under way is to end; read by the world meanwhile; atomic */
+  gint ending;               /* the step under way is to end; read by the world meanwhile; atomic */
+  const SporeCancel *making; /* ends the making; NULL once the session is made */
 
   /* Guarded by the mutex, which no thread holds during a step. */
   GMutex mutex;
@@ -289,6 +290,7 @@ static void take_paced_step(SporeSession *session) {
 
 static void take_reset(SporeSession *session) {
   g_atomic_int_set(&session->ending, 0);
+  session->steps = 0;
   spore_world_reset(session->simulation->world);
   for (guint i = 0; i < session->recorder_count; i++) {
     Recorder *recorder = &session->recorders[i];
@@ -301,6 +303,7 @@ static void take_reset(SporeSession *session) {
   start_measuring(session);
   session->reset = FALSE;
   restart_pace(session);
+  g_cond_broadcast(&session->stood);
 }
 
 static gpointer run(gpointer data) {
@@ -347,7 +350,7 @@ static void end_step(SporeSession *session) { g_atomic_int_set(&session->ending,
 
 static bool is_ending(void *data) {
   SporeSession *session = data;
-  return g_atomic_int_get(&session->ending) != 0;
+  return g_atomic_int_get(&session->ending) != 0 || spore_cancel_asked(session->making);
 }
 
 static gboolean make_measurement(SporeSession *session, SporeDocument *document, GError **error) {
@@ -358,13 +361,15 @@ static gboolean make_measurement(SporeSession *session, SporeDocument *document,
   return take_measurement(session, new_measurement(session, NULL, 0, NULL), error);
 }
 
-SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error) {
+SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input,
+                                const SporeCancel *cancel, GError **error) {
   SporeSession *session = g_new0(SporeSession, 1);
   g_mutex_init(&session->mutex);
   g_cond_init(&session->wake);
   g_cond_init(&session->stood);
   session->speed = 1;
   session->cancel = (SporeCancel){is_ending, session};
+  session->making = cancel;
   session->pool = spore_pool_create(MAX(threads, 1));
   if (!session->pool) {
     spore_error_raise(error, SPORE_ERROR_MEMORY, "", "no threads to be had; close other programs");
@@ -376,6 +381,7 @@ SporeSession *spore_session_new(SporeDocument *document, int threads, const Spor
     spore_session_free(session);
     return NULL;
   }
+  session->making = NULL;
   session->thread = g_thread_new("simulation", run, session);
   return session;
 }
@@ -433,9 +439,9 @@ gboolean spore_session_try_pause(SporeSession *session) {
   return stands;
 }
 
-void spore_session_give_up(SporeSession *session) {
+gboolean spore_session_try_give_up(SporeSession *session) {
   end_step(session);
-  spore_session_pause(session);
+  return spore_session_try_pause(session);
 }
 
 gboolean spore_session_stands(const SporeSession *session) {
@@ -463,27 +469,41 @@ void spore_session_step(SporeSession *session, guint steps) {
   g_mutex_unlock(&session->mutex);
 }
 
-gboolean spore_session_try_step(SporeSession *session) {
+gboolean spore_session_try_step(SporeSession *session, guint steps) {
   g_mutex_lock(&session->mutex);
   gboolean stands = FALSE;
   if (!session->playing) {
-    session->steps = 1;
+    session->steps = steps;
     stands = wait_patiently(session);
   }
   g_mutex_unlock(&session->mutex);
   return stands;
 }
 
+/* With the mutex held, here and below. Nobody else gets the mutex between the reset and a thread that stands. */
+static void begin_reset(SporeSession *session) {
+  session->reset = TRUE;
+  session->standing = FALSE;
+  g_cond_signal(&session->wake);
+}
+
 void spore_session_reset(SporeSession *session) {
   end_step(session);
   g_mutex_lock(&session->mutex);
-  gboolean playing = session->playing;
-  session->playing = FALSE;
-  session->reset = TRUE;
-  wait_standing(session);
-  session->playing = playing;
-  g_cond_signal(&session->wake);
+  begin_reset(session);
+  while (session->reset) g_cond_wait(&session->stood, &session->mutex);
   g_mutex_unlock(&session->mutex);
+}
+
+gboolean spore_session_try_reset(SporeSession *session) {
+  gint64 end = g_get_monotonic_time() + PATIENCE_US;
+  end_step(session);
+  g_mutex_lock(&session->mutex);
+  begin_reset(session);
+  while (session->reset && g_cond_wait_until(&session->stood, &session->mutex, end)) continue;
+  gboolean done = !session->reset;
+  g_mutex_unlock(&session->mutex);
+  return done;
 }
 
 void spore_session_carry_over(SporeSession *to, const SporeSession *from) {

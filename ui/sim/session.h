@@ -8,8 +8,10 @@
 
 typedef struct SporeSession SporeSession;
 
-/* Compiles the document and starts paused at time 0. The session owns its simulation. */
-SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error);
+/* Compiles the document and starts paused at time 0. The session owns its simulation. cancel: ends the making, and is
+ * borrowed for this call; NULL: none. On any thread. */
+SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input,
+                                const SporeCancel *cancel, GError **error);
 void spore_session_free(SporeSession *session); /* stops the thread and waits */
 const SporeSimulation *spore_session_simulation(const SporeSession *session);
 
@@ -18,14 +20,16 @@ void spore_session_pause(SporeSession *session); /* returns when the thread has 
 /* The same, but returns soon. FALSE: a step is still under way. */
 gboolean spore_session_try_pause(SporeSession *session);
 /* The same, where the session is to be freed next: ends a step under way, whose state is then the one before it. */
-void spore_session_give_up(SporeSession *session);
+gboolean spore_session_try_give_up(SporeSession *session);
 gboolean spore_session_stands(const SporeSession *session); /* paused, and no step is under way */
 gboolean spore_session_is_playing(const SporeSession *session);
 void spore_session_step(SporeSession *session, guint steps); /* while paused; returns when done */
-/* One step, but returns soon. FALSE: the step is still under way. */
-gboolean spore_session_try_step(SporeSession *session);
+/* The same, but returns soon. FALSE: the steps are still under way. */
+gboolean spore_session_try_step(SporeSession *session, guint steps);
 /* Time 0, paused or playing as before; ends a step under way. */
 void spore_session_reset(SporeSession *session);
+/* The same, but returns soon. FALSE: the session is still on its way to time 0. */
+gboolean spore_session_try_reset(SporeSession *session);
 /* Copies the state of bodies that both sessions have, by name, into a session that is not running. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */

@@ -1,24 +1,31 @@
 /* The player: runs a compiled copy of the document, and keeps it in step with edits. */
 #include "ui/sim/spore-player.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
+
+#include "ui/sim/session-work.h"
 
 struct _SporePlayer {
   GObject parent;
   SporeEditorDocument *document;
   SporeSession *session;
   double speed;
-  guint rebuild;       /* idle source */
+  SporeJob *making;    /* of the session that will take the place of `session`; NULL: none */
+  SporeSession *next;  /* that one, made, until a step of `session` has ended */
+  gboolean given_up;   /* `session` makes no more steps */
+  gboolean plays;      /* what is done with the next session */
+  guint steps;         /* likewise, where it does not play */
+  gboolean from_start; /* the next session starts at time 0 and copies no state */
+  guint remake;        /* idle source: makes a session anew */
+  guint take;          /* timeout source, while `next` waits */
   guint watch;         /* timeout source, while a step outlasts the wait for it */
-  gboolean from_start; /* the rebuild starts at time 0 and copies no state */
 };
 
 G_DEFINE_FINAL_TYPE(SporePlayer, spore_player, G_TYPE_OBJECT)
 
-enum { STATE_CHANGED, REPLACED, FAILED, SIGNAL_COUNT };
+enum { STATE_CHANGED, PROGRESSED, REPLACED, FAILED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
-
-static int threads(void) { return (int)CLAMP(g_get_num_processors() / 2, 1, 8); }
 
 /* Between two looks at a long step, ms. */
 #define LOOK_MS 50
@@ -37,51 +44,96 @@ static void tell(SporePlayer *self, gboolean stands) {
   g_signal_emit(self, signals[STATE_CHANGED], 0);
 }
 
+/* Making. */
+
+/* Lets go of what is being made. What is to be done with the next session stays. */
+static void stop_making(SporePlayer *self) {
+  g_autoptr(SporeJob) job = g_steal_pointer(&self->making);
+  if (job) spore_job_cancel(job);
+  if (self->next) spore_session_retire(g_steal_pointer(&self->next));
+  g_clear_handle_id(&self->remake, g_source_remove);
+  g_clear_handle_id(&self->take, g_source_remove);
+}
+
+static void wish_nothing(SporePlayer *self) {
+  self->plays = self->from_start = FALSE;
+  self->steps = 0;
+}
+
 static void replace_session(SporePlayer *self, SporeSession *session) {
-  g_clear_handle_id(&self->rebuild, g_source_remove);
   g_clear_handle_id(&self->watch, g_source_remove);
   SporeSession *old = self->session;
   self->session = session;
+  self->given_up = FALSE;
   g_signal_emit(self, signals[REPLACED], 0);
-  spore_session_free(old);
+  if (old) spore_session_retire(old);
   g_signal_emit(self, signals[STATE_CHANGED], 0);
 }
 
-static SporeSession *compile(SporePlayer *self) {
-  g_autoptr(GError) error = NULL;
-  SporeSession *session = spore_session_new(spore_editor_document_get(self->document), threads(), NULL, &error);
-  if (session) spore_session_set_speed(session, self->speed);
-  else g_signal_emit(self, signals[FAILED], 0, error->message);
-  return session;
-}
-
-static gboolean ensure_session(SporePlayer *self) {
-  if (self->rebuild) {
-    g_clear_handle_id(&self->rebuild, g_source_remove);
-    replace_session(self, NULL);
-  }
-  if (self->session) return TRUE;
-  SporeSession *session = compile(self);
-  if (session) replace_session(self, session);
-  return session != NULL;
-}
-
-/* The scene changed in a way that needs another world. */
-static gboolean rebuild(gpointer data) {
+/* The new session takes the place of the one before, as soon as that one stands. */
+static gboolean take_next(gpointer data) {
   SporePlayer *self = data;
-  self->rebuild = 0;
-  gboolean playing = spore_session_is_playing(self->session);
-  spore_session_give_up(self->session);
-  SporeSession *session = compile(self);
-  if (session && !self->from_start) spore_session_carry_over(session, self->session);
-  self->from_start = FALSE;
+  if (self->session && !spore_session_try_give_up(self->session)) return G_SOURCE_CONTINUE;
+  SporeSession *session = g_steal_pointer(&self->next);
+  gboolean plays = self->plays;
+  guint steps = self->steps;
+  if (self->session && !self->from_start) spore_session_carry_over(session, self->session);
+  spore_session_set_speed(session, self->speed);
+  self->take = 0;
+  wish_nothing(self);
+  if (plays) spore_session_play(session);
   replace_session(self, session);
-  if (session && playing) spore_player_play(self);
+  if (!plays && steps > 0) tell(self, spore_session_try_step(session, steps));
   return G_SOURCE_REMOVE;
 }
 
+static void made(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporePlayer *self = owner;
+  if (job != self->making) return; /* another one is being made, or none */
+  g_clear_object(&self->making);
+  if (error) {
+    wish_nothing(self);
+    replace_session(self, NULL);
+    g_signal_emit(self, signals[FAILED], 0, error->message);
+    return;
+  }
+  self->next = g_steal_pointer(&((SporeSessionWork *)data)->session);
+  self->plays = spore_player_is_playing(self);
+  self->given_up = TRUE;
+  if (take_next(self) == G_SOURCE_CONTINUE) self->take = g_timeout_add(LOOK_MS, take_next, self);
+}
+
+static void progressed(SporePlayer *self) { g_signal_emit(self, signals[PROGRESSED], 0); }
+
+static gboolean make(gpointer data) {
+  SporePlayer *self = data;
+  self->remake = 0;
+  stop_making(self);
+  self->making = spore_job_start(_("Preparing the simulation"), spore_session_work_run,
+                                 spore_session_work_new(spore_editor_document_get(self->document)),
+                                 spore_session_work_free, made, G_OBJECT(self));
+  g_signal_connect_object(self->making, "progressed", G_CALLBACK(progressed), self, G_CONNECT_SWAPPED);
+  g_signal_emit(self, signals[STATE_CHANGED], 0);
+  return G_SOURCE_REMOVE;
+}
+
+gboolean spore_player_is_making(SporePlayer *self) { return self->making || self->remake || self->next; }
+
+/* Following the document. */
+
 static gboolean is_at_rest(SporePlayer *self) {
   return !spore_session_is_playing(self->session) && spore_session_snapshot(self->session)->step == 0;
+}
+
+/* Whether the running world takes the change. */
+static gboolean apply(SporePlayer *self, SporeObject *object, guint property) {
+  const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
+  SporeSimulation *simulation = (SporeSimulation *)spore_session_simulation(self->session);
+  if (!spore_player_is_making(self) &&
+      spore_simulation_apply(simulation, spore_editor_document_get(self->document), object, property))
+    return TRUE;
+  if (parameter->change == SPORE_CHANGE_RESTART) self->from_start = TRUE;
+  return FALSE;
 }
 
 /* Whether a new object says nothing that the scene did not say without it: what is set in it follows. */
@@ -90,29 +142,31 @@ static gboolean says_nothing(const SporeObject *object) {
 }
 
 static void document_changed(SporePlayer *self, int kind, guint id, guint property) {
-  if (!self->session) return;
-  if (is_at_rest(self)) {
+  if (!self->session && !spore_player_is_making(self)) return;
+  if (!spore_player_is_making(self) && is_at_rest(self)) {
     replace_session(self, NULL);
     return;
   }
   SporeDocument *document = spore_editor_document_get(self->document);
-  SporeObject *object = kind == SPORE_DOCUMENT_SET ? spore_document_by_id(document, id) : NULL;
+  SporeObject *object = self->session && kind == SPORE_DOCUMENT_SET ? spore_document_by_id(document, id) : NULL;
   const SporeObject *added = kind == SPORE_DOCUMENT_INSERTED ? spore_document_by_id(document, id) : NULL;
   if (added && says_nothing(added)) return;
-  if (object) {
-    const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
-    if (spore_simulation_apply((SporeSimulation *)spore_session_simulation(self->session), document, object, property))
-      return;
-    if (parameter->change == SPORE_CHANGE_RESTART) self->from_start = TRUE;
-  }
-  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
+  if (object && apply(self, object, property)) return;
+  if (!self->remake) self->remake = g_idle_add_full(G_PRIORITY_HIGH_IDLE, make, self, NULL);
+}
+
+/* Life. */
+
+void spore_player_close(SporePlayer *self) {
+  stop_making(self);
+  g_clear_handle_id(&self->watch, g_source_remove);
+  if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
+  if (self->session) spore_session_retire(g_steal_pointer(&self->session));
 }
 
 static void spore_player_dispose(GObject *object) {
   SporePlayer *self = SPORE_PLAYER(object);
-  g_clear_handle_id(&self->rebuild, g_source_remove);
-  g_clear_handle_id(&self->watch, g_source_remove);
-  g_clear_pointer(&self->session, spore_session_free);
+  spore_player_close(self);
   g_clear_object(&self->document);
   G_OBJECT_CLASS(spore_player_parent_class)->dispose(object);
 }
@@ -121,6 +175,7 @@ static void spore_player_class_init(SporePlayerClass *class) {
   GType type = G_TYPE_FROM_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_player_dispose;
   signals[STATE_CHANGED] = g_signal_new("state-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+  signals[PROGRESSED] = g_signal_new("progressed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   signals[REPLACED] = g_signal_new("replaced", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   signals[FAILED] = g_signal_new("failed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 1, G_TYPE_STRING);
 }
@@ -134,29 +189,59 @@ SporePlayer *spore_player_new(SporeEditorDocument *document) {
   return self;
 }
 
+/* What the user asks for. */
+
 SporeSession *spore_player_get_session(SporePlayer *self) { return self->session; }
 
-gboolean spore_player_is_playing(SporePlayer *self) { return self->session && spore_session_is_playing(self->session); }
+SporeJob *spore_player_get_job(SporePlayer *self) { return self->making; }
 
-gboolean spore_player_prepare(SporePlayer *self) { return ensure_session(self); }
+/* Whether there is a session that does as it is asked to. */
+static gboolean has_session(const SporePlayer *self) { return self->session && !self->given_up; }
+
+gboolean spore_player_is_playing(SporePlayer *self) {
+  return has_session(self) ? spore_session_is_playing(self->session) : self->plays;
+}
+
+void spore_player_cancel(SporePlayer *self) {
+  if (!spore_player_is_making(self)) return;
+  stop_making(self);
+  wish_nothing(self);
+  replace_session(self, NULL);
+}
+
+void spore_player_prepare(SporePlayer *self) {
+  if (!self->session && !spore_player_is_making(self)) make(self);
+}
 
 void spore_player_play(SporePlayer *self) {
-  if (!ensure_session(self)) return;
-  spore_session_play(self->session);
+  self->plays = TRUE;
+  self->steps = 0;
+  spore_player_prepare(self);
+  if (has_session(self)) spore_session_play(self->session);
   g_signal_emit(self, signals[STATE_CHANGED], 0);
 }
 
-void spore_player_pause(SporePlayer *self) { tell(self, !self->session || spore_session_try_pause(self->session)); }
+void spore_player_pause(SporePlayer *self) {
+  self->plays = FALSE;
+  self->steps = 0;
+  tell(self, !has_session(self) || spore_session_try_pause(self->session));
+}
 
+/* While the next session is made, the steps are for that one. */
 void spore_player_step(SporePlayer *self) {
-  if (!ensure_session(self)) return;
-  tell(self, (!spore_session_is_playing(self->session) || spore_session_try_pause(self->session)) &&
-                 spore_session_try_step(self->session));
+  spore_player_prepare(self);
+  gboolean stands = !has_session(self) || !spore_session_is_playing(self->session) || //
+                    spore_session_try_pause(self->session);
+  self->plays = FALSE;
+  if (spore_player_is_making(self)) self->steps++;
+  else stands = stands && spore_session_try_step(self->session, 1);
+  tell(self, stands);
 }
 
 void spore_player_reset(SporePlayer *self) {
-  if (self->session) spore_session_reset(self->session);
-  g_signal_emit(self, signals[STATE_CHANGED], 0);
+  gboolean done = !has_session(self) || spore_session_try_reset(self->session);
+  if (spore_player_is_making(self)) self->from_start = TRUE;
+  tell(self, done);
 }
 
 void spore_player_set_speed(SporePlayer *self, double speed) {

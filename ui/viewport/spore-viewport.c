@@ -46,7 +46,7 @@ static const SporeSimulation *simulation_of(SporeViewport *self) {
 
 static void update_stage(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
-  if (self->stage && session) {
+  if (self->stage && session && !self->rebuild) { /* a stage that is to be built anew is of another world */
     const SporeSnapshot *snapshot = spore_session_snapshot(session);
     spore_stage_update(self->stage, snapshot);
     self->shown_step = snapshot->step;
@@ -59,7 +59,9 @@ static gboolean rebuild(gpointer data) {
   SporeViewport *self = data;
   self->rebuild = 0;
   spore_viewport_show_welcome(self);
-  if (!self->stage) return G_SOURCE_REMOVE;
+  /* The run before goes on until the edited one is prepared; the stage is of its world till then. */
+  gboolean outdated = simulation_of(self) && spore_player_is_making(self->player);
+  if (!self->stage || outdated) return G_SOURCE_REMOVE;
   spore_stage_set_hidden(self->stage, self->hidden);
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
@@ -149,7 +151,8 @@ static gboolean tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) {
     self->tick = 0;
     return G_SOURCE_REMOVE;
   }
-  if (spore_session_snapshot(spore_player_get_session(self->player))->step != self->shown_step) update_stage(self);
+  SporeSession *session = spore_player_get_session(self->player);
+  if (session && spore_session_snapshot(session)->step != self->shown_step) update_stage(self);
   gint64 now = gdk_frame_clock_get_frame_time(clock);
   if (now - self->hud_clock >= HUD_INTERVAL_US) {
     self->hud_clock = now;
