@@ -15,6 +15,7 @@ typedef struct Stage {
   const double *qa, *va;
   double c;
   const double *at; /* v of the linearisation */
+  bool whole;       /* that took all that may buckle */
   size_t linear_iterations;
   double *q, *v;        /* where it is linearised */
   double *from;         /* as q: of the linearisation before */
@@ -44,6 +45,7 @@ static void linearise(void *data, const double *v, const double *from) {
   dynamics->drift(dynamics->data, stage->qa, v, stage->c, stage->q, stage->v);
   dynamics->linearise(dynamics->data, stage->q, from ? stage->from : NULL, v, stage->c, stage->c * stage->c);
   stage->at = v;
+  stage->whole = false;
 }
 
 /* A is of this form, and what follows is of the usual one again. */
@@ -51,6 +53,7 @@ static void linearise_by(Stage *stage, SporeTangentForm form, const double *v, c
   const SporeDynamics *dynamics = stage->dynamics;
   dynamics->take_tangent(dynamics->data, form);
   linearise(stage, v, from);
+  stage->whole = form == SPORE_TANGENT_WHOLE;
   dynamics->take_tangent(dynamics->data, SPORE_TANGENT_USUAL);
 }
 
@@ -69,7 +72,7 @@ typedef SporeLinearResult Method(const SporeLinearOperator *operator, const doub
                                  size_t iterations, double *x, double *scratch);
 
 /* Where iterations are many, the preconditioner is made to hold what couples bodies, unless the solution is all but
- * there. work: in an iteration, products. */
+ * there. What may buckle has no factor: its solution is given up then. work: in an iteration, products. */
 static SporeLinearResult iterate(Stage *stage, Method *method, const SporeLinearOperator *operator, const double * r,
                                  double tolerance, size_t work, double *dv) {
   const SporeDynamics *dynamics = stage->dynamics;
@@ -82,7 +85,7 @@ static SporeLinearResult iterate(Stage *stage, Method *method, const SporeLinear
     patient.patience = (SporePatience){(patience.least + work - 1) / work, work == 1 ? patience.more : 0};
     SporeLinearResult first = method(&patient, r, tolerance, most, dv, stage->linear);
     first.iterations *= work;
-    if (first.status != SPORE_LINEAR_TOO_MANY) return first;
+    if (first.status != SPORE_LINEAR_TOO_MANY || stage->whole) return first;
     dynamics->couple(dynamics->data);
     spent = first.iterations;
   }

@@ -34,6 +34,7 @@ typedef struct Mark {
 /* What the method does where it creeps. */
 typedef struct Creep {
   bool whole;   /* directions by the whole Jacobian. A alone leads from afar to the answer that has gained no energy */
+  bool plain;   /* but for the next, by A: the last led nowhere */
   bool all;     /* the current linearisation is that of all that may buckle */
   size_t stuck; /* iterations in a row */
   bool met;     /* the differences know g */
@@ -63,7 +64,8 @@ static bool find_direction(Newton *newton) {
   SporeNonlinearResult *result = &newton->result;
   const SporeConvergence *test = &newton->test;
   double tolerance = forcing_term(test->norm, newton->previous, test->tolerance * test->scale_r);
-  SporeLinearResult linear = newton->creep.whole && system->solve_whole
+  bool whole = newton->creep.whole && !newton->creep.plain;
+  SporeLinearResult linear = whole && system->solve_whole
                                  ? system->solve_whole(system->data, newton->r, tolerance, newton->d)
                                  : system->solve(system->data, newton->r, tolerance, newton->d);
   result->linear_iterations += linear.iterations;
@@ -198,9 +200,19 @@ static void take_step(Newton *newton, double length) {
   memcpy(newton->from, newton->x, n * sizeof *newton->from);
   memcpy(newton->x, newton->trial, n * sizeof *newton->x);
   memcpy(newton->r, newton->trial_r, n * sizeof *newton->r);
+  creep->plain = false;
   newton->previous = newton->test.norm;
   spore_convergence_step(&newton->test, system, newton->x, newton->d, length, newton->trial_norm, &newton->result);
   if (newton->test.norm <= newton->test.least) memcpy(newton->best, newton->x, n * sizeof *newton->best);
+}
+
+/* Where no length along the direction helps: back to A, which leads down in any case. False: it was A's. */
+static bool fall_back(Creep *creep, bool switches) {
+  if (creep->plain || !(creep->all || (creep->whole && switches))) return false;
+  creep->plain = true;
+  creep->stuck = 0;
+  spore_differences_forget(&creep->differences);
+  return true;
 }
 
 /* False: it was the last iteration. */
@@ -213,12 +225,7 @@ static bool iterate(Newton *newton) {
   if (last && result->iterations == 0) return false;
   if (!point_down(newton)) return false;
   double length = choose_length(newton);
-  if (length == 0) {
-    if (!newton->creep.all) return false;
-    newton->creep.stuck = 0; /* back to A, which leads down in any case */
-    spore_differences_forget(&newton->creep.differences);
-    return true;
-  }
+  if (length == 0) return fall_back(&newton->creep, system->switches);
   take_step(newton, length);
   result->converged |= solved;
   return !last;

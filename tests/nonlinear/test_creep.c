@@ -83,11 +83,68 @@ static void test_no_switch(void) {
   g_assert_cmpfloat(search(&dry, TRUE, &norm), ==, 1);
 }
 
+/* r = 1 - x by an A four times too stiff, so that each step leaves three quarters, and by what calls itself the whole
+ * and leads uphill. */
+typedef struct Creeping {
+  gboolean lost; /* A leads uphill, too, but at the guess */
+  int whole, plain;
+} Creeping;
+
+static void creeping_residual(void *data, const double *x, double *r) { r[0] = 1 - x[0]; }
+static double creeping_norm(void *data, const double *r) { return fabs(r[0]); }
+static double creeping_dot(void *data, const double *a, const double *b) { return a[0] * b[0]; }
+static double creeping_rounding(void *data, const double *x, bool stiff_axes) { return 0; }
+static void creeping_linearise(void *data, const double *x, const double *from) {}
+
+static SporeLinearResult creeping_solve(void *data, const double *r, double tolerance, double *dx) {
+  Creeping *creeping = data;
+  dx[0] = creeping->plain++ > 0 && creeping->lost ? -r[0] : r[0] / 4;
+  return (SporeLinearResult){SPORE_LINEAR_CONVERGED, 1, 0};
+}
+
+static SporeLinearResult creeping_whole(void *data, const double *r, double tolerance, double *dx) {
+  ((Creeping *)data)->whole++;
+  dx[0] = -r[0];
+  return (SporeLinearResult){SPORE_LINEAR_CONVERGED, 1, 0};
+}
+
+static SporeNonlinearResult creep(Creeping *creeping) {
+  double x = 0, r = 1, scratch[SPORE_NEWTON_SCRATCH];
+  SporeSystem system = {.data = creeping,
+                        .count = 1,
+                        .switches = true,
+                        .residual = creeping_residual,
+                        .linearise = creeping_linearise,
+                        .solve = creeping_solve,
+                        .solve_whole = creeping_whole,
+                        .dot = creeping_dot,
+                        .norm = creeping_norm,
+                        .scale_x = 1,
+                        .scale_r = 1,
+                        .rounding = creeping_rounding};
+  return spore_newton(&system, &(SporeNonlinearOptions){.iterations = 60, .tolerance = 0.01}, &x, &r, scratch);
+}
+
+/* Where the whole Jacobian leads nowhere, A goes on; where A does not either, the method ends. */
+static void test_fall_back(void) {
+  Creeping creeping = {0};
+  SporeNonlinearResult result = creep(&creeping);
+  g_test_message("%zu iterations, %d by the whole", result.iterations, creeping.whole);
+  g_assert_true(result.converged);
+  g_assert_cmpint(creeping.whole, >, 0);
+  creeping = (Creeping){.lost = TRUE};
+  result = creep(&creeping);
+  g_assert_false(result.converged);
+  g_assert_cmpuint(result.iterations, ==, 1);
+  g_assert_cmpint(creeping.plain, ==, 2);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/creep/differences", test_differences);
   g_test_add_func("/creep/ring", test_ring);
   g_test_add_func("/creep/switch", test_switch);
   g_test_add_func("/creep/no-switch", test_no_switch);
+  g_test_add_func("/creep/fall-back", test_fall_back);
   return g_test_run();
 }

@@ -274,6 +274,100 @@ static void test_coupled(void) {
   spore_world_free(world);
 }
 
+static void begin_step(SporeIslandSystem *system, SporeWorld *world, double c) {
+  world->state.step++;
+  *system = (SporeIslandSystem){world, &world->solve.islands[0]};
+  const SporeIsland *island = system->island;
+  spore_island_system_linearise(system, island->q0, NULL, island->v0, c, 0.002);
+}
+
+/* The next step begins with that preconditioner, as it is, until the bodies' factors are others; a contact that is new
+ * is taken in, and what one left is not. */
+static void test_coupled_recalled(void) {
+  SporeWorld *world = make();
+  SporeIsland *island = &world->solve.islands[0];
+  SporeIslandSystem system;
+  double r[N] = {0};
+  for (int i = 0; i < N; i++) r[i] = i >= 9 && i < 12 ? 0 : cos(i);
+  size_t contacts = island->contact_count;
+  island->contact_count = contacts - 1;
+  begin_step(&system, world, 0.03);
+  g_assert_false(system.coupled);
+  g_assert_true(spore_island_system_couple(&system));
+  uint64_t made = world->bodies[0].preconditioner.factors_made;
+  for (int i = 0; i < 3; i++) {
+    island->contact_count = contacts - 1 + (i == 1);
+    begin_step(&system, world, 0.03);
+    SporeDynamics dynamics = spore_island_system_dynamics(&system);
+    g_assert_true(system.coupled);
+    g_assert_cmpfloat(missed(&dynamics, r), <, 1e-9);
+    g_assert_cmpuint(world->bodies[0].preconditioner.factors_made, ==, made);
+  }
+  begin_step(&system, world, 0.04);
+  g_assert_false(system.coupled);
+  spore_body_forget_steps(world, &world->bodies[0]);
+  begin_step(&system, world, 0.03);
+  g_assert_false(system.coupled);
+  spore_world_free(world);
+}
+
+/* Takes steps of this work with and without that preconditioner, made as soon as it may be, until it is given up;
+ * returns the number of steps with it. before: steps without it. */
+static size_t serve(SporeWorld *world, double with, double without, size_t *before) {
+  size_t steps = 0;
+  bool recalled = true;
+  *before = 0;
+  while (steps == 0 || (recalled && steps < 2000)) {
+    SporeIslandSystem system;
+    begin_step(&system, world, 0.03);
+    recalled = system.coupled;
+    *system.work += recalled ? with : without;
+    if (!recalled) g_assert_true(spore_island_system_couple(&system));
+    steps += recalled;
+    *before += steps == 0;
+  }
+  return steps;
+}
+
+/* It is recalled as long as it saves work. Where it does not, that is found soon, and tried ever more rarely; where it
+ * does, that is asked again from time to time. */
+static void test_coupled_trial(void) {
+  SporeWorld *world = make();
+  size_t before[5], steps[5];
+  for (int k = 0; k < 3; k++) steps[k] = serve(world, 3e9, 1e9, &before[k]);
+  g_assert_cmpuint(steps[0], <, 8);
+  g_assert_cmpuint(steps[2], <, 8);
+  g_assert_cmpuint(before[2], >, before[1] + 1);
+  spore_body_forget_steps(world, &world->bodies[0]);
+  for (int k = 3; k < 5; k++) steps[k] = serve(world, 1e9, 2e9, &before[k]);
+  g_test_message(
+      "steps with it, after steps without: %zu, %zu, %zu and %zu, %zu, %zu where it costs, %zu, %zu and %zu, "
+      "%zu where it saves",
+      steps[0], steps[1], steps[2], before[0], before[1], before[2], steps[3], steps[4], before[3], before[4]);
+  g_assert_cmpuint(steps[4], >, 32);
+  g_assert_cmpuint(steps[4], <, 2000);
+  g_assert_cmpuint(before[4], <, 5);
+  spore_world_free(world);
+}
+
+/* What may buckle has no factor: a solution that goes slowly is then given up, however much the step has taken. */
+static void test_coupled_whole(void) {
+  SporeWorld *world = make();
+  SporeIsland *island = &world->solve.islands[0];
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  dynamics.linearise(dynamics.data, island->q0, NULL, island->v0, 0.03, 0.002);
+  size_t fresh = dynamics.coupling_patience(dynamics.data).least;
+  system.products = 1000;
+  g_assert_cmpuint(dynamics.coupling_patience(dynamics.data).least, <, fresh);
+  dynamics.take_tangent(dynamics.data, SPORE_TANGENT_WHOLE);
+  dynamics.linearise(dynamics.data, island->q0, NULL, island->v0, 0.03, 0.002);
+  dynamics.take_tangent(dynamics.data, SPORE_TANGENT_USUAL);
+  system.products = 1000;
+  g_assert_cmpuint(dynamics.coupling_patience(dynamics.data).least, ==, fresh);
+  spore_world_free(world);
+}
+
 #define STIFF_CHAINS 3
 #define WIDE (SPORE_BAND_WIDEST + 1)
 
@@ -351,6 +445,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/sim/operator/local-assembly", test_local_assembly);
   g_test_add_func("/sim/operator/kept-factor", test_kept_factor);
   g_test_add_func("/sim/operator/coupled", test_coupled);
+  g_test_add_func("/sim/operator/coupled-recalled", test_coupled_recalled);
+  g_test_add_func("/sim/operator/coupled-trial", test_coupled_trial);
+  g_test_add_func("/sim/operator/coupled-whole", test_coupled_whole);
   g_test_add_func("/sim/operator/choice", test_choice);
   return g_test_run();
 }

@@ -26,6 +26,7 @@ void spore_body_factorise(SporeBody *body, const double *blocks, bool alone) {
   body->preconditioner.bare_c = alone && body->preconditioner.factor_ready ? body->preconditioner.matrix_c : 0;
   body->preconditioner.bare_c2 = body->preconditioner.matrix_c2;
   body->preconditioner.choice.factors++;
+  body->preconditioner.factors_made++;
 }
 
 bool spore_body_has_bare_factor(const SporeBody *body) {

@@ -31,6 +31,7 @@ typedef struct SporeIslandSystem {
   bool coupled_fresh;                         /* by factors of the last linearisation */
   double coupled_c, coupled_c2;               /* and is of these; of the last linearisation: */
   double linearised_c, linearised_c2;
+  double *work, iteration_work;  /* what recall counts in, or NULL; of an iteration: see coupled_factor.c */
   size_t products;               /* with A, since then */
   size_t dragging;               /* contacts with a drag, which the current A leaves out */
   bool driven;                   /* a device moves some end */
@@ -189,6 +190,13 @@ void spore_island_system_factor_solve(const SporeIslandSystem *system, const dou
  * the bodies alone make of r. */
 SporePatience spore_island_system_coupling_patience(void *data);
 bool spore_island_system_couple(void *data);
+/* Where that preconditioner of an earlier step saves work, it serves again; counts the work of the step from here on.
+ */
+void spore_island_system_recall_coupled(SporeIslandSystem *system);
+double spore_island_system_iteration_work(const SporeIslandSystem *system);
+static inline void spore_island_system_count(const SporeIslandSystem *system, double work) {
+  if (system->work) *system->work += work;
+}
 void spore_island_system_update_coupled(SporeIslandSystem *system);
 void spore_island_system_take_in_couplings(SporeIslandSystem *system, const double *r, bool dragged, double *z);
 

@@ -111,10 +111,14 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
     else if (!body->preconditioner.choice.factorised || !spore_island_system_assembles(system, body))
       body->preconditioner.factor_ready = body->preconditioner.factor_kept = false;
     else if (body->preconditioner.factor_kept && !alone) body->preconditioner.factor_ready = true;
-    else if (!current) spore_body_factorise(body, blocks + 3 * site->v, alone);
+    else if (!current) {
+      spore_body_factorise(body, blocks + 3 * site->v, alone);
+      spore_island_system_count(system, spore_body_factor_work(body));
+    }
     invert_diagonal(system, body, q + site->q, blocks + 3 * site->v);
   }
   spore_island_system_update_coupled(system);
+  system->iteration_work = spore_island_system_iteration_work(system);
 }
 
 /* Whether the body's matrix is its whole stiffness, negative parts and all, which the balance makes definite. */
@@ -143,7 +147,7 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
   body->preconditioner.matrix_c = c;
   body->preconditioner.matrix_c2 = c2;
   body->preconditioner.matrix_step = system->world->state.step;
-  body->preconditioner.matrix_usual = system->tangent == SPORE_TANGENT_USUAL;
+  body->preconditioner.matrix_form = system->tangent;
 }
 
 /* Whether the body takes its whole tangent. Compression may make the whole tangent indefinite. A factor detects that,
@@ -193,6 +197,7 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
   spore_island_system_load_levers(system, c2);
+  spore_island_system_recall_coupled(system);
   make_preconditioner(system, q);
   if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
 }
@@ -237,7 +242,7 @@ static bool may_reuse(const SporeIslandSystem *system, double c, double c2) {
     const SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) continue;
     bool same = body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2;
-    if (!same || !body->preconditioner.matrix_usual ||
+    if (!same || body->preconditioner.matrix_form != SPORE_TANGENT_USUAL ||
         system->world->state.step - body->preconditioner.matrix_step >= body->preconditioner.choice.keep)
       return false;
   }
@@ -337,6 +342,7 @@ void spore_island_system_multiply_dragged(void *data, const double *x, double *y
 bool spore_island_system_drags(void *data) { return ((const SporeIslandSystem *)data)->dragging > 0; }
 
 static void precondition(SporeIslandSystem *system, const double *r, bool dragged, double *z) {
+  spore_island_system_count(system, system->iteration_work);
   if (system->together) spore_island_system_factor_solve(system, r, z);
   else spore_island_system_solve_bodies(system, r, z);
   if (system->coupled) spore_island_system_take_in_couplings(system, r, dragged, z);

@@ -140,6 +140,7 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
       (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && wants_factor(body));
   body->preconditioner.factor_ready = false;
   body->preconditioner.bare_c = 0;
+  if (body->preconditioner.coupled) spore_coupled_room_forget(body->preconditioner.coupled);
 }
 
 void spore_body_forget_steps(SporeWorld *world, SporeBody *body) {

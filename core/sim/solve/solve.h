@@ -58,18 +58,19 @@ typedef struct SporeCoupledRoom SporeCoupledRoom; /* see coupled_factor.c */
 typedef struct SporePreconditioner {
   SporeBlockMatrix
       matrix; /* M + c D + c2 K of the model alone, without couplings; empty where the model has no Jacobian */
-  double matrix_c, matrix_c2; /* c and c2 of the assembled matrix; 0: not assembled */
-  bool matrix_usual;          /* it is no more and no less than a step usually takes */
-  uint64_t matrix_step;       /* number of the step in which the matrix was assembled */
-  SporeBlockCholesky factor;  /* without blocks: this body is never factorised */
-  bool factor_ready;          /* the factor may be used: it belongs to the present matrix, or is kept */
-  bool factor_alone;          /* the factor was made without couplings */
-  double bare_c, bare_c2;     /* c and c2 of the numbers of such a factor, whatever the present matrix is; 0: none */
-  bool factor_kept;           /* among couplings: the factor also serves later matrices with the same c and c2 */
-  double *rows;               /* of a rigid body: its rows of the factor of a small island; NULL: of another body */
-  SporeCoupledRoom *coupled;  /* for the couplings of an island that the body is the first of; NULL: no matrix */
-  uint32_t first_row;         /* first entry of these rows that is not zero */
-  double turning[9];          /* of a rigid body: what the load of links adds to A against turning */
+  double matrix_c, matrix_c2;   /* c and c2 of the assembled matrix; 0: not assembled */
+  SporeTangentForm matrix_form; /* what it took of the stiffness */
+  uint64_t matrix_step;         /* number of the step in which the matrix was assembled */
+  SporeBlockCholesky factor;    /* without blocks: this body is never factorised */
+  bool factor_ready;            /* the factor may be used: it belongs to the present matrix, or is kept */
+  bool factor_alone;            /* the factor was made without couplings */
+  uint64_t factors_made;        /* tells the numbers of one factor from those of another */
+  double bare_c, bare_c2;       /* c and c2 of the numbers of such a factor, whatever the present matrix is; 0: none */
+  bool factor_kept;             /* among couplings: the factor also serves later matrices with the same c and c2 */
+  double *rows;                 /* of a rigid body: its rows of the factor of a small island; NULL: of another body */
+  SporeCoupledRoom *coupled;    /* for the couplings of an island that the body is the first of; NULL: no matrix */
+  uint32_t first_row;           /* first entry of these rows that is not zero */
+  double turning[9];            /* of a rigid body: what the load of links adds to A against turning */
   double rounding_soft, rounding_stiff; /* squares, of the last preconditioner: see spore_island_rounding */
   SporeFactorChoice choice;
 } SporePreconditioner;
@@ -257,6 +258,8 @@ bool spore_body_create_rows(SporeBody *body);
 
 /* coupled_factor.c: makes room for the couplings of an island with each body that has a matrix. False: no memory. */
 bool spore_world_create_coupled_rooms(SporeWorld *world);
+/* What earlier steps left there is of no use any more. */
+void spore_coupled_room_forget(SporeCoupledRoom *room);
 /* Whether a body has such room: without one, nothing is coupled, and the world needs no lanes. */
 bool spore_world_has_coupled_rooms(const SporeWorld *world);
 
