@@ -33,6 +33,7 @@ static const Command commands[] = {
     {"advise", spore_command_advise, N_("Say what a scene simulates that nobody would miss")},
     {"centreline", spore_command_centreline, N_("Find the middle line of a tubular organ")},
     {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
+    {"spline", spore_command_spline, N_("Make a spline sheet of a patch of an organ between four corners")},
     {"surface", spore_command_surface, N_("Make the surface of a net: fewer, well-shaped triangles")},
     {"tetrahedra", spore_command_tetrahedra, N_("Fill a mesh with tetrahedra")},
     {"models", spore_command_models, N_("List models and their parameters")},

@@ -42,11 +42,6 @@ const SporeReportMember spore_accuracy_members[] = {
     {"sentence", N_("what it comes to, in words")},
     {NULL, NULL}};
 
-static void add_boolean(SporeCli *cli, const char *member, gboolean value) {
-  json_builder_set_member_name(cli->report, member);
-  json_builder_add_boolean_value(cli->report, value);
-}
-
 static void report_stretch(SporeCli *cli, const char *scene, const SporeAccuracyReport *report) {
   const SporeAccuracyReference *reference = &report->reference;
   gboolean crossed = reference->cross_method < report->method_count;
@@ -64,13 +59,13 @@ static void report_stretch(SporeCli *cli, const char *scene, const SporeAccuracy
   spore_cli_text(cli, "cross_method", crossed ? report->methods[reference->cross_method].label : NULL);
   spore_cli_number(cli, "cross_dt_s", crossed ? reference->cross_dt_s : NAN);
   spore_cli_number(cli, "cross_difference", crossed ? reference->cross_difference : NAN);
-  add_boolean(cli, "agreed", reference->agreed);
+  spore_cli_flag(cli, "agreed", reference->agreed);
   spore_cli_number(cli, "gap_m", reference->gap);
   spore_cli_number(cli, "line_stretch", reference->line_stretch);
   spore_cli_close(cli);
   spore_cli_open(cli, "resolution");
   spore_cli_number(cli, "growth", report->growth);
-  add_boolean(cli, "chaotic", report->chaotic);
+  spore_cli_flag(cli, "chaotic", report->chaotic);
   spore_cli_number(cli, "spread", report->statistics ? report->spread : NAN);
   spore_cli_number(cli, "floor", report->floor);
   spore_cli_close(cli);
@@ -92,11 +87,11 @@ static void report_point(SporeCli *cli, const SporeAccuracyReport *report, const
   spore_cli_number(cli, "p99_us", point->p99_us);
   spore_cli_number(cli, "real_time_factor", point->real_time_factor);
   spore_cli_number(cli, "cpu_s", point->cost);
-  add_boolean(cli, "stable", point->stable);
-  add_boolean(cli, "as_written", point->as_written);
-  add_boolean(cli, "sound", point->sound);
-  add_boolean(cli, "resolved", point->resolved);
-  add_boolean(cli, "pareto", point->pareto);
+  spore_cli_flag(cli, "stable", point->stable);
+  spore_cli_flag(cli, "as_written", point->as_written);
+  spore_cli_flag(cli, "sound", point->sound);
+  spore_cli_flag(cli, "resolved", point->resolved);
+  spore_cli_flag(cli, "pareto", point->pareto);
   spore_cli_count(cli, "repeats", (gint64)point->repeats);
   spore_cli_number(cli, "force_evaluations", point->force_evaluations);
   spore_cli_number(cli, "newton", point->newton);
@@ -114,7 +109,7 @@ static void report_methods(SporeCli *cli, const SporeAccuracyReport *report) {
     spore_cli_number(cli, "order_spread", fit->order_spread);
     spore_cli_number(cli, "nominal", fit->nominal);
     spore_cli_text(cli, "alike", fit->alike == m ? NULL : report->methods[fit->alike].label);
-    add_boolean(cli, "converges", fit->converges);
+    spore_cli_flag(cli, "converges", fit->converges);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

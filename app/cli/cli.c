@@ -154,6 +154,11 @@ void spore_cli_count(SporeCli *cli, const char *member, gint64 value) {
   json_builder_add_int_value(cli->report, value);
 }
 
+void spore_cli_flag(SporeCli *cli, const char *member, gboolean value) {
+  name_member(cli, member);
+  json_builder_add_boolean_value(cli->report, value);
+}
+
 void spore_cli_text(SporeCli *cli, const char *member, const char *value) {
   name_member(cli, member);
   if (value) json_builder_add_string_value(cli->report, value);

@@ -57,6 +57,7 @@ int spore_cli_finish(SporeCli *cli, int status);
 /* Members of the report. Numbers that JSON cannot hold become null. */
 void spore_cli_number(SporeCli *cli, const char *member, double value);
 void spore_cli_count(SporeCli *cli, const char *member, gint64 value);
+void spore_cli_flag(SporeCli *cli, const char *member, gboolean value);
 void spore_cli_text(SporeCli *cli, const char *member, const char *value);
 void spore_cli_open(SporeCli *cli, const char *member); /* object; NULL inside an array */
 void spore_cli_open_array(SporeCli *cli, const char *member);
@@ -105,6 +106,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv);
 int spore_command_schema(SporeCli *cli, int argc, char **argv);
 int spore_command_spheres(SporeCli *cli, int argc, char **argv);
 int spore_command_stability(SporeCli *cli, int argc, char **argv);
+int spore_command_spline(SporeCli *cli, int argc, char **argv);
 int spore_command_surface(SporeCli *cli, int argc, char **argv);
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv);
 

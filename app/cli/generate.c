@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/cli/scene.h"
+#include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/generated.h"
 
@@ -77,6 +78,27 @@ gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *f
 void spore_cli_close_body(SporeSceneBody *scene) {
   g_clear_pointer(&scene->document, spore_document_free);
   g_clear_pointer(&scene->source_hash, g_free);
+}
+
+/* Meshes as files. */
+
+typedef char *(*Formatter)(const SporeTriangleMesh *mesh, gsize *size);
+/* NULL: the file's name ends in nothing known. */
+static Formatter formatter_of(const char *file) {
+  if (g_str_has_suffix(file, ".off")) return spore_off_format;
+  return g_str_has_suffix(file, ".obj") ? spore_obj_format : NULL;
+}
+
+gboolean spore_cli_knows_mesh(const char *file) {
+  if (formatter_of(file)) return TRUE;
+  spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), file);
+  return FALSE;
+}
+
+gboolean spore_cli_write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error) {
+  gsize size = 0;
+  g_autofree char *text = formatter_of(file)(mesh, &size);
+  return spore_write_file(file, text, size, error);
 }
 
 /* The generator. */

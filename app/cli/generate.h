@@ -36,6 +36,11 @@ SporeGeneratedFrom spore_cli_generated_from(const SporeSceneBody *scene, const v
 gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *file, GError **error);
 void spore_cli_close_body(SporeSceneBody *scene);
 
+/* Whether a mesh can be written in the format that the file's name ends in; says so on stderr where it cannot. */
+gboolean spore_cli_knows_mesh(const char *file);
+/* Writes the mesh to a file whose format is known. */
+gboolean spore_cli_write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error);
+
 /* Reports the result: members of the report, and lines for people. */
 typedef void SporeCliReport(SporeCli *cli, const SporeGenerateWork *work);
 /* Generates from the mesh that the body (NULL: the only one) shows, gives the result to the body, and saves the scene.

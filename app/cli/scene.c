@@ -43,7 +43,7 @@ gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **er
 SporeDocument *spore_cli_new_scene(SporeCli *cli, const char *file) {
   SporeDocument *document = spore_document_new(cli->schema);
   spore_document_set_readers(document, &spore_io_readers);
-  if (g_file_test(file, G_FILE_TEST_EXISTS))
+  if (file && g_file_test(file, G_FILE_TEST_EXISTS))
     spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there\n"), file);
   return document;
 }

@@ -33,7 +33,7 @@ void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message,
 /* Reports all problems of a scene: elements of the open array of the report, and lines for people. */
 void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document);
 
-/* An empty scene that will be written to that file. Tells people where it replaces an existing file. */
+/* An empty scene that will be written to that file (NULL: to none). Tells people where it replaces an existing file. */
 SporeDocument *spore_cli_new_scene(SporeCli *cli, const char *file);
 /* Finds a body by name. NULL with an error that lists the scene's bodies. place: where the name was given, for the
  * message. */

@@ -4,35 +4,15 @@
 #include "app/cli/generate.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/surface/surface.h"
-#include "core/io/mesh_import.h"
-#include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"
 
 typedef struct WallOptions {
   double thickness;         /* m */
   gint64 detail;            /* see spore_wall_inner; 0: SPORE_WALL_DETAIL */
-  const char *wall, *inner; /* files to write, NULL: none; with a suffix that formatter_of knows */
+  const char *wall, *inner; /* files to write, NULL: none; with a suffix that is known */
 } WallOptions;
 
-typedef char *(*Formatter)(const SporeTriangleMesh *mesh, gsize *size);
-/* NULL: the file's name ends in nothing known. */
-static Formatter formatter_of(const char *file) {
-  if (g_str_has_suffix(file, ".off")) return spore_off_format;
-  return g_str_has_suffix(file, ".obj") ? spore_obj_format : NULL;
-}
-
-static gboolean write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error) {
-  gsize size = 0;
-  g_autofree char *text = formatter_of(file)(mesh, &size);
-  return spore_write_file(file, text, size, error);
-}
-
 /* The surface. */
-
-static void report_flag(SporeCli *cli, const char *member, gboolean value) {
-  json_builder_set_member_name(cli->report, member);
-  json_builder_add_boolean_value(cli->report, value);
-}
 
 static void report_edges(SporeCli *cli, const SporeSurfaceReport *report) {
   spore_cli_open(cli, "edge_m");
@@ -58,8 +38,8 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
   spore_cli_count(cli, "crossings_before", (gint64)simplify->crossings_before);
   spore_cli_count(cli, "crossings", (gint64)simplify->crossings);
   spore_cli_count(cli, "creases", (gint64)simplify->creases);
-  report_flag(cli, "creases_kept", simplify->creases_kept);
-  report_flag(cli, "reached", simplify->reached);
+  spore_cli_flag(cli, "creases_kept", simplify->creases_kept);
+  spore_cli_flag(cli, "reached", simplify->reached);
   spore_cli_number(cli, "seconds", report->seconds);
   spore_cli_say(cli,
                 _("%zu nodes, %zu triangles: distance %.2f %% of the diagonal (outline %.2f %%), least angle %.1f "
@@ -134,8 +114,8 @@ static gboolean make_wall(SporeCli *cli, const char *file, const SporeTriangleMe
     spore_error_at(&fault, file);
     spore_error_propagate(&fault, error);
   }
-  done = done && (!options->wall || write_mesh(options->wall, &wall, error)) &&
-         (!options->inner || write_mesh(options->inner, &inner, error));
+  done = done && (!options->wall || spore_cli_write_mesh(options->wall, &wall, error)) &&
+         (!options->inner || spore_cli_write_mesh(options->inner, &inner, error));
   if (done) report_wall(cli, &inner, options, &figures);
   spore_triangle_mesh_clear(&inner);
   if (done && made) *made = wall;
@@ -160,7 +140,7 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
   if (wall->thickness > 0) {
     done = make_wall(cli, file, thin ? &mesh : surface, wall, made, error);
   } else if (wall->wall) {
-    done = write_mesh(wall->wall, &mesh, error);
+    done = spore_cli_write_mesh(wall->wall, &mesh, error);
   }
   if (done && thin) report(cli, &mesh, &figures);
   if (done && made && wall->thickness == 0) *made = mesh;
@@ -243,8 +223,7 @@ static int check_options(const SporeCliOptions *options, const WallOptions *wall
         _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
   const char *const files[] = {wall->wall, wall->inner};
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
-    if (files[i] && !formatter_of(files[i]))
-      return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), files[i]);
+    if (files[i] && !spore_cli_knows_mesh(files[i])) return SPORE_EXIT_INPUT;
   return SPORE_EXIT_DONE;
 }
 

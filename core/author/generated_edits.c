@@ -8,6 +8,8 @@
 #include "core/scene/generated.h"
 #include "core/author/edits.h"
 #include "core/author/region_edits.h"
+#include "core/author/sheet_body.h"
+#include "core/scene/sheet_corners.h"
 
 /* What a body uses. */
 
@@ -24,13 +26,19 @@ static SporeObject *generated(SporeObject *asset) {
   return source && *source ? asset : NULL;
 }
 
+/* Whether a mesh is the patch of a sheet. */
+static gboolean is_patch(const SporeObject *mesh) {
+  double corners[12];
+  return spore_sheet_corners(mesh, corners);
+}
+
 /* An asset of that element that was generated from the mesh that the body shows. */
 static SporeObject *made_of_shown(SporeDocument *document, SporeObject *body, const char *element) {
   SporeObject *mesh = spore_edit_visual_mesh(document, body, NULL);
   SporeObject *assets = spore_document_section(document, "assets");
   for (guint i = 0; mesh && i < spore_object_child_count(assets); i++) {
     SporeObject *asset = spore_object_child(assets, i);
-    if (g_str_equal(spore_object_type(asset)->element, element) && generated(asset) &&
+    if (g_str_equal(spore_object_type(asset)->element, element) && generated(asset) && !is_patch(asset) &&
         g_str_equal(spore_object_text(asset, "source"), spore_object_name(mesh)))
       return asset;
   }
@@ -42,9 +50,20 @@ SporeObject *spore_edit_body_curve(SporeDocument *document, SporeObject *body) {
   return used ? used : made_of_shown(document, body, "curve");
 }
 
-SporeObject *spore_edit_body_surface(SporeDocument *document, SporeObject *body) {
+SporeObject *spore_edit_body_sheet(SporeDocument *document, SporeObject *body) {
   SporeObject *used = generated(spore_edit_used_asset(document, body, "mechanical", "geometry", "mesh"));
-  if (!used) used = generated(spore_edit_visual_mesh(document, body, NULL));
+  return used && is_patch(used) ? used : NULL;
+}
+
+/* A generated mesh that is no patch. */
+static SporeObject *generated_surface(SporeObject *mesh) {
+  mesh = generated(mesh);
+  return mesh && !is_patch(mesh) ? mesh : NULL;
+}
+
+SporeObject *spore_edit_body_surface(SporeDocument *document, SporeObject *body) {
+  SporeObject *used = generated_surface(spore_edit_used_asset(document, body, "mechanical", "geometry", "mesh"));
+  if (!used) used = generated_surface(spore_edit_visual_mesh(document, body, NULL));
   return used ? used : made_of_shown(document, body, "mesh");
 }
 
@@ -187,4 +206,21 @@ gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, cons
            use(document, body, "mechanical", "geometry", asset, error);
   if (done && where == SPORE_SURFACE_SHOWN) done = use(document, body, "visual", "mesh", asset, error);
   return spore_edit_finish(document, done);
+}
+
+gboolean spore_edit_use_sheet(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                              const SporeTriangleMesh *patch, const SporeSheetReport *report, SporeSheetUse where,
+                              GError **error) {
+  Content content = {.element = "mesh", .suffix = "patch", .extension = "off"};
+  const SporeMeshFields *fields = from->fields;
+  SporeObject *used = spore_edit_body_sheet(document, body);
+  content.text = spore_off_format(patch, &content.size);
+  spore_document_begin(document, _("Generate spline sheet"));
+  SporeObject *owner = body;
+  if (!used && where == SPORE_SHEET_BODY) owner = spore_sheet_body_beside(document, body, error);
+  SporeObject *asset = owner ? keep(document, owner, used, from, &content, error) : NULL;
+  if (!owner) g_free(content.text);
+  return spore_edit_finish(document,
+                           asset && (where == SPORE_SHEET_ASSET ||
+                                     spore_sheet_body_fill(document, owner, asset, report, fields->smoothing, error)));
 }

@@ -20,7 +20,10 @@ SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body)
 SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
 /* The curve that the body is made of, else a curve that was generated from the mesh it shows. */
 SporeObject *spore_edit_body_curve(SporeDocument *document, SporeObject *body);
-/* A generated mesh that the body is made of or shows, else a mesh that was generated from the mesh it shows. */
+/* The patch with corners that the body is made of. */
+SporeObject *spore_edit_body_sheet(SporeDocument *document, SporeObject *body);
+/* A generated mesh that the body is made of or shows, else a mesh that was generated from the mesh it shows; no patch
+ * with corners. */
 SporeObject *spore_edit_body_surface(SporeDocument *document, SporeObject *body);
 
 /* The result becomes an asset of the body and replaces its earlier generated asset. With tetrahedra or a surface, a
@@ -36,6 +39,13 @@ gboolean spore_edit_use_curve(SporeDocument *document, SporeObject *body, const 
 typedef enum SporeSurfaceUse { SPORE_SURFACE_MODEL, SPORE_SURFACE_SHOWN, SPORE_SURFACE_ASSET } SporeSurfaceUse;
 gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                 const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
+/* The patch of a sheet, and where it is used: by a new body beside the organ, or by the organ's body. A body that is
+ * such a sheet already gets the new patch in any case but the last. The report's corners have to be among the fields.
+ */
+typedef enum SporeSheetUse { SPORE_SHEET_BODY, SPORE_SHEET_MODEL, SPORE_SHEET_ASSET } SporeSheetUse;
+gboolean spore_edit_use_sheet(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                              const SporeTriangleMesh *patch, const SporeSheetReport *report, SporeSheetUse use,
+                              GError **error);
 
 /* Stores in the asset its source and its options. Its file must be set before. FALSE with an error: the asset is
  * frozen. */

@@ -3,6 +3,7 @@
 #define SPORE_AUTHOR_GENERATOR_H
 
 #include "core/generate/centreline/centreline.h"
+#include "core/generate/sheet/sheet.h"
 #include "core/generate/spheres/spheres.h"
 #include "core/generate/surface/surface.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
@@ -18,6 +19,10 @@ typedef struct SporeMeshFields {
   int64_t nodes;
   double size, keep_angle, wall; /* m, degrees, m */
   int64_t wall_detail;
+  double first_corner[3], second_corner[3], third_corner[3], fourth_corner[3], inside[3]; /* m; all corners the same:
+                                                                                             the sheet's own */
+  int64_t control_points;      /* of a sheet; 0: by the tolerance */
+  double tolerance, smoothing; /* m */
 } SporeMeshFields;
 
 typedef struct SporeSpheresFields {
@@ -84,7 +89,7 @@ typedef struct SporeGeneratorType {
 } SporeGeneratorType;
 
 extern const SporeGeneratorType spore_generator_surface, spore_generator_spheres, spore_generator_tetrahedra,
-    spore_generator_curve, spore_generator_labels;
+    spore_generator_curve, spore_generator_labels, spore_generator_sheet;
 #define SPORE_GENERATORS_MOST 32
 #define SPORE_GENERATOR_FIELDS 512                         /* bytes that the fields of an asset take, at most */
 extern const SporeGeneratorType *const spore_generators[]; /* all of them, ended by NULL */
@@ -107,6 +112,7 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                                      const SporeGenerateRegion *regions, gsize count);
 SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields);
 SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields);
+SporeSheetOptions spore_edit_sheet_options(const SporeMeshFields *fields);
 
 /* The mesh asset that the generated asset `target` (NULL: nothing yet) is made from. It is the mesh that the body
  * shows. Where the body shows nothing or the generated mesh itself, it is the source that the generated asset

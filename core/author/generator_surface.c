@@ -1,4 +1,4 @@
-/* The generator of surfaces and walls: its options, which are attributes of <mesh>. */
+/* The generator of surfaces and walls, and the attributes of <mesh>: its options, and those of sheets. */
 #include "core/author/generator.h"
 
 #include <math.h>
@@ -88,6 +88,76 @@ static const SporeParameter mesh_parameters[] = {
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("How near the wall is to its thickness: twice as much halves the largest error, in more triangles; 0: "
                "16, for an error below 5 %.")},
+    {.name = "first_corner",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeMeshFields, first_corner),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Place on the surface that is the first corner of a spline sheet; all four corners the same: the sheet "
+               "finds its own.")},
+    {.name = "second_corner",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeMeshFields, second_corner),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Corner that comes after the first one around the sheet.")},
+    {.name = "third_corner",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeMeshFields, third_corner),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Corner opposite to the first one.")},
+    {.name = "fourth_corner",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeMeshFields, fourth_corner),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Corner opposite to the second one.")},
+    {.name = "inside",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeMeshFields, inside),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Place on the part between the corners that becomes the sheet; 0 0 0: the smaller part, or the one that "
+               "is whole.")},
+    {.name = "control_points",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     SPORE_SHEET_MOST_POINTS,
+     .initial = {12},
+     FIELD(SporeMeshFields, control_points),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("Number of control points along the longer sides of the sheet, with as many across as their distance asks "
+            "for; 0: as few as the tolerance takes.")},
+    {.name = "tolerance",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, tolerance),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Distance that the sheet may have from the surface, where the number of control points is 0.")},
+    {.name = "smoothing",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, smoothing),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Length of waves of the surface that the sheet follows to half their height, and shorter waves to less; "
+               "0: none are smoothed.")},
     GENERATED(SporeMeshFields),
 };
 
@@ -101,6 +171,7 @@ SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields) {
                                 fields->keep_angle * G_PI / 180};
 }
 
+static const char *const options_taken[] = {"nodes", "size", "keep_angle", "wall", "wall_detail", NULL};
 static const char *const uses[] = {"model", "visual_mesh", "asset", NULL}; /* as SporeSurfaceUse */
 static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
     uses, N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
@@ -189,6 +260,7 @@ const SporeGeneratorType spore_generator_surface = {
     .command = "surface",
     .element = "mesh",
     .elements = elements,
+    .only = options_taken,
     .count = "nodes",
     .ways = "nodes | size",
     .purpose = &purpose,

@@ -14,7 +14,8 @@ typedef enum SporeGenerateKind {
   SPORE_GENERATE_TETRAHEDRA,
   SPORE_GENERATE_SURFACE,
   SPORE_GENERATE_CURVE,
-  SPORE_GENERATE_LABELS /* of a file instead of a body */
+  SPORE_GENERATE_LABELS, /* of a file instead of a body */
+  SPORE_GENERATE_SHEET
 } SporeGenerateKind;
 
 /* A plain value that may be copied: only the options among the fields count, and no option is a text. */
@@ -24,7 +25,7 @@ typedef struct SporeGenerateOptions {
     SporeSpheresFields spheres;
     SporeTetrahedraFields tetrahedra;
     SporeCurveFields curve;
-    SporeMeshFields surface;
+    SporeMeshFields surface;                      /* of a sheet too */
     char room[SPORE_GENERATOR_FIELDS];            /* of others */
   } fields;                                       /* of the asset of that kind */
   int purpose;                                    /* what becomes of the result, of the kind's */
@@ -68,10 +69,12 @@ struct SporeGenerateWork {
   SporeCurve root;                         /* out: of the mesentery of an intestine along the curve; empty: none */
   SporeCentrelineRoot root_report;         /* out, with root */
   double *curve_way;                       /* out: a vertex of the given mesh, to the line through the inside, m */
-  SporeTriangleMesh surface;               /* out: with a wall, all around it */
+  SporeTriangleMesh surface;               /* out: with a wall, all around it; of a sheet, its patch */
   SporeSurfaceReport surface_report;       /* out; zero where it was not thinned */
   SporeWallReport wall_report;             /* out; zero without a wall */
-  double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
+  SporeSheetReport sheet_report;           /* out, with the patch */
+  double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made; of a sheet, a
+                                              vertex of the patch, to the sheet; m */
 };
 /* Copies the source mesh and the regions of the asset, or keeps a reference to the label map (body NULL). NULL with an
  * error: there is no mesh, or there are too many regions. */

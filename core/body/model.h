@@ -41,6 +41,7 @@ typedef struct SporeGeometry {
   const SporeCurve *root;      /* for types that take a root; NULL: none */
   const SporeRegions *regions; /* for types that take regions; create counts their elements; NULL: none */
   const SporeCancel *cancel;   /* ends create; NULL: nothing does */
+  const double *corners; /* 4 x 3, on the edge of an open surface and in turn around it, for a sheet; NULL: not given */
 } SporeGeometry;
 
 #define SPORE_NO_BODY UINT32_MAX /* in place of the index of a body: the world itself */

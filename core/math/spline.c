@@ -1,8 +1,10 @@
-/* Basis functions of cubic B-splines, and the insertion of a knot. */
+/* Basis functions of cubic B-splines, the insertion of a knot, and the solver of what is fitted by them. */
 #include "core/math/spline.h"
 
 #include <assert.h>
 #include <math.h>
+
+#include "core/math/vec3.h"
 
 static double knot(SporeSplineKnots knots, size_t i) {
   return i < 3 ? 0 : spore_spline_break(knots, i - 3 < knots.span_count ? i - 3 : knots.span_count);
@@ -62,4 +64,22 @@ void spore_spline_insert(SporeSplineKnots knots, size_t span, double parameter, 
     double from = knot(knots, span + 1 + i), to = knot(knots, span + 4 + i);
     ratio[i] = (parameter - from) / (to - from);
   }
+}
+
+void spore_spline_solve_band(size_t count, double *band, double *x) {
+  assert(count == 0 || (band && x && band != x));
+  for (size_t i = 0; i < count; i++) {
+    double pivot = sqrt(band[4 * i]);
+    for (size_t k = 0; k < 4; k++) band[4 * i + k] /= pivot;
+    for (size_t k = 1; k < 4 && i + k < count; k++)
+      for (size_t l = k; l < 4; l++) band[4 * (i + k) + l - k] -= band[4 * i + k] * band[4 * i + l];
+    spore_vec3_store(x + 3 * i, spore_vec3_scale(1 / band[4 * i], spore_vec3_load(x + 3 * i)));
+    for (size_t k = 1; k < 4 && i + k < count; k++)
+      for (size_t c = 0; c < 3; c++) x[3 * (i + k) + c] -= band[4 * i + k] * x[3 * i + c];
+  }
+  for (size_t i = count; i-- > 0;)
+    for (size_t c = 0; c < 3; c++) {
+      for (size_t k = 1; k < 4 && i + k < count; k++) x[3 * i + c] -= band[4 * i + k] * x[3 * (i + k) + c];
+      x[3 * i + c] /= band[4 * i];
+    }
 }

@@ -54,4 +54,8 @@ SporeSplineBasis spore_spline_basis(SporeSplineKnots knots, double parameter, si
  * that number and the rest of the one before; those behind have moved on by one. */
 void spore_spline_insert(SporeSplineKnots knots, size_t span, double parameter, double ratio[3]);
 
+/* Solves B x = x in place by Cholesky's L L^T within the band: B is symmetric positive definite of half-width 3, its
+ * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */
+void spore_spline_solve_band(size_t count, double *band, double *x);
+
 #endif

@@ -6,6 +6,7 @@
 
 #include "core/scene/fidelity.h"
 #include "core/scene/level_settings.h"
+#include "core/scene/sheet_corners.h"
 
 static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
                          const SporeTriangleMesh *mesh) {
@@ -46,10 +47,10 @@ static gboolean refuse_geometry(SporeCompiler *compiler, const SporeObject *mech
 }
 #pragma GCC diagnostic pop
 
-/* Finds the geometry of a model, named by the mechanical unit or by one of its levels of detail. FALSE with a message
- * when the asset is missing or of the wrong kind. */
+/* Finds the geometry of a model, named by the mechanical unit or by one of its levels of detail. corners: room for
+ * those of a sheet, 4 x 3. FALSE with a message when the asset is missing or of the wrong kind. */
 static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
-                              SporeGeometry *geometry) {
+                              double corners[12], SporeGeometry *geometry) {
   SporeObject *asset;
   if (type->geometry == SPORE_GEOMETRY_NONE) return TRUE;
   if (!spore_compiler_resolve(compiler, mechanical, "geometry", &asset)) return FALSE;
@@ -65,6 +66,7 @@ static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechan
     return geometry->curve != NULL;
   default:
     geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
+    geometry->corners = spore_sheet_corners(asset, corners) ? corners : NULL;
   }
   if (!geometry->surface) return FALSE;
   return type->geometry != SPORE_GEOMETRY_SOLID || is_solid(compiler, mechanical, asset, geometry->surface);
@@ -163,8 +165,9 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   const SporeObject *mechanical = spore_object_parent(object);
   const SporeModelType *type = spore_object_type(object)->model;
   SporeRegions regions = {0};
+  double corners[12];
   SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
-  gboolean described = find_geometry(compiler, mechanical, type, &geometry) &&
+  gboolean described = find_geometry(compiler, mechanical, type, corners, &geometry) &&
                        find_root(compiler, mechanical, type, &geometry) &&
                        find_regions(compiler, body, object, &regions);
   g_autofree SporeRegion *owned = regions.regions;
@@ -188,13 +191,14 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
 static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
   const SporeModelType *type = spore_object_type(model)->model;
   SporeRegions regions = {0};
+  double corners[12];
   SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
   SporeLodFields level_fields;
   SporeError fault = SPORE_ERROR_INIT;
   spore_object_fields(level, &level_fields);
   const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
   const SporeObject *body = spore_object_parent(spore_object_parent(model));
-  gboolean described = find_geometry(compiler, from, type, &geometry) &&
+  gboolean described = find_geometry(compiler, from, type, corners, &geometry) &&
                        find_root(compiler, spore_object_parent(model), type, &geometry) &&
                        find_regions(compiler, body, model, &regions);
   g_autofree SporeRegion *owned = regions.regions;

@@ -23,23 +23,18 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *     environment(gravity)
  *     solver(spore_solver_parameters)
  *     defaults > contact(spore_contact_parameters)   what bodies' collision units start from
- *     assets > mesh(name file unit frame source nodes size keep_angle wall wall_detail), and what generated data
- * remember curve(name file source points tolerance first_place last_place), the same spheres(name file source method
- * count tolerance seed) and what generated data remember (generated.h) > sphere_region(name centre radius density)
- *              tetrahedra(name file source method cells size tolerance curvature fill gap), the same
- *                > cell_region(name centre radius size)
- *     bodies > body(name role position rotation velocity spin)
- *                mechanical(geometry integrator substeps material) > one model element (its own table)
- *                regions > region(name centre radius stiffness_scale density_scale material)
- *                collision(spheres + spore_contact_parameters)
- *                visual(mesh colour wetness)
- *                fidelity(mode level automatic ...) > coarse(geometry settings) medium(geometry settings)
- *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
- *     effects
- *     tools  > probe(name body device) | camera(name position target field_of_view)
- *              camera(name position target field_of_view)
- *     devices > mouse(name) | track(name file)
- *     exercise
+ *     assets > mesh(name file unit frame source nodes size keep_angle wall wall_detail
+ *                first_corner second_corner third_corner fourth_corner inside control_points tolerance smoothing), and
+ * what generated data remember curve(name file source points tolerance first_place last_place), the same spheres(name
+ * file source method count tolerance seed) and what generated data remember (generated.h) > sphere_region(name centre
+ * radius density) tetrahedra(name file source method cells size tolerance curvature fill gap), the same >
+ * cell_region(name centre radius size) bodies > body(name role position rotation velocity spin) mechanical(geometry
+ * integrator substeps material) > one model element (its own table) regions > region(name centre radius stiffness_scale
+ * density_scale material) collision(spheres + spore_contact_parameters) visual(mesh colour wetness) fidelity(mode level
+ * automatic ...) > coarse(geometry settings) medium(geometry settings) links  > pin(name body point radius) |
+ * spring(name body_a body_b point_a point_b stiffness damping rest_length) effects tools  > probe(name body device) |
+ * camera(name position target field_of_view) camera(name position target field_of_view) devices > mouse(name) |
+ * track(name file) exercise
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).

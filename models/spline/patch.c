@@ -1,4 +1,4 @@
-/* A sheet made from a mesh: control points, Gauss points, places in the matrix. */
+/* A sheet from its control points: Gauss points, places in the matrix. */
 #include "models/spline/patch.h"
 
 #include <assert.h>
@@ -8,92 +8,8 @@
 #include "core/base/memory.h"
 #include "models/spline/spline.h"
 
-#define SAMPLES SPORE_SPLINE_SAMPLES
 #define FUNCTIONS SPORE_PATCH_FUNCTIONS
 #define FLAT 1e-9 /* of the curvature of the sheet's size: none */
-
-/* The sheet at the middles of SAMPLES parts of each span, both ways. */
-typedef struct Samples {
-  size_t count[2];
-  double *point, *within; /* x 3; the least weight of the three corners, greater for triangles that hold the sample */
-} Samples;
-
-static void sample_triangle(const SporeTriangleMesh *mesh, const double *parameters, const uint32_t *corner,
-                            Samples *samples) {
-  const double *at[3];
-  size_t first[2], end[2];
-  for (size_t k = 0; k < 3; k++) at[k] = parameters + 2 * (size_t)corner[k];
-  for (size_t e = 0; e < 2; e++) {
-    double n = (double)samples->count[e], low = fmin(at[0][e], fmin(at[1][e], at[2][e]));
-    double high = fmax(at[0][e], fmax(at[1][e], at[2][e]));
-    first[e] = (size_t)fmax(floor(low * n - 0.5), 0);
-    end[e] = (size_t)fmin(ceil(high * n + 0.5), n);
-  }
-  double bx = at[1][0] - at[0][0], by = at[1][1] - at[0][1], cx = at[2][0] - at[0][0], cy = at[2][1] - at[0][1];
-  double area = bx * cy - by * cx;
-  for (size_t j = first[1]; j < end[1]; j++)
-    for (size_t i = first[0]; i < end[0]; i++) {
-      double x = ((double)i + 0.5) / (double)samples->count[0] - at[0][0];
-      double y = ((double)j + 0.5) / (double)samples->count[1] - at[0][1];
-      double b = (x * cy - y * cx) / area, c = (bx * y - by * x) / area;
-      size_t n = j * samples->count[0] + i;
-      double within = fmin(fmin(b, c), 1 - b - c);
-      if (!(within > samples->within[n])) continue;
-      samples->within[n] = within;
-      SporeVec3 p = spore_vec3_scale(1 - b - c, spore_vec3_load(mesh->vertices + 3 * (size_t)corner[0]));
-      p = spore_vec3_add_scaled(p, b, spore_vec3_load(mesh->vertices + 3 * (size_t)corner[1]));
-      p = spore_vec3_add_scaled(p, c, spore_vec3_load(mesh->vertices + 3 * (size_t)corner[2]));
-      spore_vec3_store(samples->point + 3 * n, p);
-    }
-}
-
-static bool take_samples(const SporeTriangleMesh *mesh, const double *parameters, Samples *samples) {
-  size_t n = samples->count[0] * samples->count[1];
-  samples->point = SPORE_NEW_ARRAY(double, 3 * n);
-  samples->within = SPORE_NEW_ARRAY(double, n);
-  if (!samples->point || !samples->within) return false;
-  for (size_t i = 0; i < n; i++) samples->within[i] = -HUGE_VAL;
-  for (size_t t = 0; t < mesh->triangle_count; t++) sample_triangle(mesh, parameters, mesh->triangles + 3 * t, samples);
-  return true;
-}
-
-/* The spline of span_count spans nearest to SAMPLES points a span, `stride` doubles apart; both x y z. */
-static void fit_line(size_t span_count, const double *samples, size_t stride, double *band, double *control,
-                     size_t control_stride, double *work) {
-  size_t count = span_count + 3, span;
-  memset(band, 0, 4 * count * sizeof *band);
-  memset(work, 0, 3 * count * sizeof *work);
-  for (size_t n = 0; n < SAMPLES * span_count; n++) {
-    SporeSplineBasis basis = spore_spline_basis(spore_spline_uniform(span_count), ((double)n + 0.5) / SAMPLES, &span);
-    for (size_t i = 0; i < 4; i++) {
-      for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += basis.value[i] * basis.value[j];
-      for (size_t c = 0; c < 3; c++) work[3 * (span + i) + c] += basis.value[i] * samples[stride * n + c];
-    }
-  }
-  spore_spline_solve_band(count, band, work);
-  for (size_t i = 0; i < count; i++) memcpy(control + control_stride * i, work + 3 * i, 3 * sizeof *work);
-}
-
-/* The least squares of a tensor product are those of its lines, one way and then the other. */
-bool spore_patch_fit(const SporeTriangleMesh *mesh, const double *parameters, size_t span_u, size_t span_v,
-                     double *control) {
-  assert(span_u > 0 && span_v > 0);
-  size_t nodes_u = span_u + 3, most = (span_u > span_v ? span_u : span_v) + 3;
-  Samples samples = {.count = {SAMPLES * span_u, SAMPLES * span_v}};
-  double *rows = SPORE_NEW_ARRAY(double, 3 * nodes_u * samples.count[1]);
-  double *band = SPORE_NEW_ARRAY(double, 4 * most), *work = SPORE_NEW_ARRAY(double, 3 * most);
-  bool made = rows && band && work && take_samples(mesh, parameters, &samples);
-  for (size_t j = 0; made && j < samples.count[1]; j++)
-    fit_line(span_u, samples.point + 3 * samples.count[0] * j, 3, band, rows + 3 * nodes_u * j, 3, work);
-  for (size_t i = 0; made && i < nodes_u; i++)
-    fit_line(span_v, rows + 3 * i, 3 * nodes_u, band, control + 3 * i, 3 * nodes_u, work);
-  spore_free(samples.point);
-  spore_free(samples.within);
-  spore_free(rows);
-  spore_free(band);
-  spore_free(work);
-  return made;
-}
 
 /* Control point of a cell's function k. */
 static uint32_t node_of(const SporePatch *patch, size_t cell, size_t k) {

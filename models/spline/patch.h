@@ -50,11 +50,6 @@ typedef struct SporePatch {
 
 static inline size_t spore_patch_nodes(const SporePatch *patch) { return (patch->span_u + 3) * (patch->span_v + 3); }
 
-/* Of the spline nearest in the mean square to the sheet whose vertices have the parameters (vertex_count x 2, 0 to 1);
- * control: (span_u + 3) (span_v + 3) x 3, u runs first. False: no memory. */
-bool spore_patch_fit(const SporeTriangleMesh *mesh, const double *parameters, size_t span_u, size_t span_v,
-                     double *control);
-
 /* Makes all but the points; thickness and so on are set by the caller before. False: no memory. */
 bool spore_patch_allocate(SporePatch *patch, size_t span_u, size_t span_v);
 void spore_patch_clear(SporePatch *patch);

@@ -102,24 +102,6 @@ static void hold(size_t count, size_t held, SporeVec3 at, double *band, double *
   spore_vec3_store(control + 3 * held, at);
 }
 
-void spore_spline_solve_band(size_t count, double *band, double *x) {
-  assert(count == 0 || (band && x && band != x));
-  for (size_t i = 0; i < count; i++) {
-    double pivot = sqrt(band[4 * i]);
-    for (size_t k = 0; k < 4; k++) band[4 * i + k] /= pivot;
-    for (size_t k = 1; k < 4 && i + k < count; k++)
-      for (size_t l = k; l < 4; l++) band[4 * (i + k) + l - k] -= band[4 * i + k] * band[4 * i + l];
-    spore_vec3_store(x + 3 * i, spore_vec3_scale(1 / band[4 * i], spore_vec3_load(x + 3 * i)));
-    for (size_t k = 1; k < 4 && i + k < count; k++)
-      for (size_t c = 0; c < 3; c++) x[3 * (i + k) + c] -= band[4 * i + k] * x[3 * i + c];
-  }
-  for (size_t i = count; i-- > 0;)
-    for (size_t c = 0; c < 3; c++) {
-      for (size_t k = 1; k < 4 && i + k < count; k++) x[3 * i + c] -= band[4 * i + k] * x[3 * (i + k) + c];
-      x[3 * i + c] /= band[4 * i];
-    }
-}
-
 bool spore_spline_fit(const SporeSplineCourse *course, SporeSplineKnots knots, double *control) {
   assert(course->curve.count > 1 && knots.span_count > 0);
   size_t count = knots.span_count + 3;

@@ -12,10 +12,6 @@
 #define SPORE_SPLINE_POINTS 2  /* Gauss points a span */
 #define SPORE_SPLINE_SAMPLES 8 /* a span, of what a spline is fitted to */
 
-/* Solves B x = x in place by Cholesky's L L^T within the band: B is symmetric positive definite of half-width 3, its
- * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */
-void spore_spline_solve_band(size_t count, double *band, double *x);
-
 /* The curve that a spline follows, with the length up to each of its points: a place is found by bisection. */
 typedef struct SporeSplineCourse {
   SporeCurve curve; /* a copy */

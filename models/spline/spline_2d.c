@@ -8,15 +8,16 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/mesh/sheet_fit.h"
+#include "core/mesh/sheet_parameters.h"
 #include "models/common/fields.h"
 #include "models/common/nodal.h"
 #include "models/registry.h"
 #include "models/spline/patch.h"
-#include "models/spline/sheet_parameters.h"
 
 typedef struct SheetFields {
   int64_t control_points_u, control_points_v;
-  double young_modulus, poisson_ratio, thickness, density, damping;
+  double young_modulus, poisson_ratio, thickness, density, damping, smoothing;
 } SheetFields;
 
 typedef struct Spline2d {
@@ -43,6 +44,9 @@ static const SporeParameter parameters[] = {
                      N_("Mass per volume of the material; 1060 is soft tissue.")),
     SPORE_REAL_FIELD(SheetFields, damping, "s", 0, 1e6, 0.01, SPORE_CHANGE_LIVE,
                      N_("Time by which stretch and bending lag behind their forces: viscosity over elasticity.")),
+    SPORE_REAL_FIELD(SheetFields, smoothing, "m", 0, 1e3, 0, SPORE_CHANGE_REBUILD,
+                     N_("Length of waves of the surface that the sheet follows to half their height, and shorter waves "
+                        "to less; 0: as near to the surface as its control points allow.")),
 };
 
 static bool no_memory(SporeError *error) {
@@ -62,13 +66,13 @@ static void tune(Spline2d *sheet, const SheetFields *fields) {
   sheet->patch.viscous = fields->damping;
 }
 
-static bool fit(Spline2d *sheet, const SporeGeometry *geometry, SporeError *error) {
+static bool fit(Spline2d *sheet, const SporeGeometry *geometry, double smoothing, SporeError *error) {
   const SporeTriangleMesh *mesh = geometry->surface;
+  const size_t span[2] = {sheet->patch.span_u, sheet->patch.span_v};
   double *at = SPORE_NEW_ARRAY(double, 2 * mesh->vertex_count);
   if (!at) return no_memory(error);
-  bool good = spore_sheet_parameters(mesh, at, geometry->cancel, error);
-  if (good && !spore_patch_fit(mesh, at, sheet->patch.span_u, sheet->patch.span_v, sheet->rest))
-    good = no_memory(error);
+  bool good = spore_sheet_parameters(mesh, geometry->corners, at, geometry->cancel, error);
+  if (good && !spore_sheet_fit(mesh, at, span, smoothing, sheet->rest)) good = no_memory(error);
   spore_free(at);
   return good;
 }
@@ -94,7 +98,7 @@ static bool build(Spline2d *sheet, const SporeGeometry *geometry, const SheetFie
   if (!spore_model_init(&sheet->base, &spore_spline_2d, nodes_u * nodes_v, false, error)) return false;
   sheet->rest = SPORE_NEW_ARRAY(double, 3 * nodes_u * nodes_v);
   if (!sheet->rest || !spore_patch_allocate(&sheet->patch, nodes_u - 3, nodes_v - 3)) return no_memory(error);
-  if (!fit(sheet, geometry, error) || !set_points(sheet, fields, error)) return false;
+  if (!fit(sheet, geometry, fields->smoothing, error) || !set_points(sheet, fields, error)) return false;
   tune(sheet, fields);
   return true;
 }

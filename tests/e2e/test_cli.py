@@ -105,7 +105,7 @@ def soft_ball():
 def help_lists_commands():
     """help lists every command; no command and unknown ones are usage errors."""
     text = spore("--help").stdout
-    for name in ("run", "check", "plan", "stability", "import", "edit", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
+    for name in ("run", "check", "plan", "stability", "import", "edit", "centreline", "spheres", "spline", "surface", "tetrahedra", "models", "schema"):
         assert f"\n  {name} " in text
         assert "--json" in spore(name, "--help").stdout
     spore(status=2)
@@ -148,7 +148,7 @@ def help_explains_json():
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
                 ("surface", "ball.off", "--nodes", 50, "--wall", 0.01), ("centreline", file("told.off", shapes.off(*shapes.tube())), "--scene", "told/line.spore")]
-    commands += [("tetrahedra", "ball.off", "--cells", 100)]
+    commands += [("tetrahedra", "ball.off", "--cells", 100), ("spline", "ball.off", "--corners", *CORNERS)]
     if "volumes" in FEATURES:
         size, voxels = two_boxes()
         commands.append(("tetrahedra", file("told.nrrd", shapes.nrrd(size, voxels)).name, "--cells", 100))
@@ -1508,6 +1508,50 @@ def centreline_command():
     refuses("centreline", "tube.off", "-o", "tube.off", says=["tube.off", "input"])
 
 
+CORNERS = ("0.02,0.02,0.02", "-0.02,0.02,0.02", "-0.02,-0.02,0.02", "0.02,-0.02,0.02")
+
+
+def patch_scene():
+    """A ball, and a sheet of a sixth of it."""
+    scene = WORK / "patch" / "patch.spore"
+    if not scene.exists():
+        file("ball.off", shapes.off(*shapes.sphere()))
+        spore("spline", "ball.off", "--corners", *CORNERS, "--scene", scene)
+    return scene
+
+
+@check
+def spline_command():
+    """spline makes a sheet of the patch between four corners, whose scene runs under gravity, held by a pin; what is no patch is refused."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    answer = report("spline", "ball.off", "--corners", *CORNERS, "--control-points", 9, "-o", "patch.off")
+    assert answer["control_points"] == [9, 9] and answer["fold_overs"] == 0 and answer["reached"]
+    assert 0 < answer["sheet_to_patch_m"]["rms"] <= answer["sheet_to_patch_m"]["max"] < 0.001 and abs(answer["area_kept"] - 1) < 0.01
+    assert [side["open_edge"] for side in answer["sides"]] == [False] * 4
+    lengths = [side["length_m"] for side in answer["sides"]]
+    assert max(lengths) - min(lengths) < 0.05 * max(lengths), lengths
+    again = report("spline", "patch.off", "--first-corner", CORNERS[0], "--second-corner", CORNERS[1], "--third-corner", CORNERS[2],
+                   "--fourth-corner", CORNERS[3])
+    assert abs(again["area_m2"] / answer["area_m2"] - 1) < 1e-6 and all(side["open_edge"] for side in again["sides"])
+    fewest = report("spline", "ball.off", "--corners", *CORNERS, "--tolerance", 0.002)["control_points"]
+    assert fewest == [6, 6], fewest
+    scene = patch_scene()
+    spore("edit", scene, "--hold", "ball_sheet", "-o", "patch/held.spore")
+    assert not [d for d in report("check", "patch/held.spore")["diagnostics"] if d["severity"] == "error"]
+    answer = report("run", "patch/held.spore", "--time", 0.5, "--watch", "ball_sheet@0,0,0.03", "--output", "patch/held.csv", "--every", 0.1)
+    assert answer["monitor"]["recoveries"] == 0 and answer["monitor"]["unsolved"] == []
+    text = scene.read_text()
+    anew = report("spline", scene, "--body", "ball_sheet", "--control-points", 14)
+    assert anew["control_points"] == [14, 14] and scene.read_text().count("<body ") == text.count("<body ")
+    refuses("spline", "ball.off", "--corners", CORNERS[0], CORNERS[2], CORNERS[1], CORNERS[3], says=["meets another side", "in turn"])
+    refuses("spline", "ball.off", "--corners", *CORNERS[:3], says=["--corners", "3"])
+    refuses("spline", "ball.off", "--first-corner", CORNERS[0], says=["1 corners", "four"])
+    refuses("spline", "ball.off", says=["closed", "four corners"])
+    refuses("spline", "ball.off", "--corners", *CORNERS, "--as", "asset", says=["--scene"])
+    refuses("spline", "ball.off", "--corners", *CORNERS, "-o", "patch.stl", says=["patch.stl", ".off"])
+    refuses("spline", scene, "--body", "ball", "-o", "patch.off", says=["--output"])
+
+
 @check
 def centreline_scenes():
     """centreline --scene writes bodies that check passes and that run without an alarm."""
@@ -1666,7 +1710,8 @@ def writers():
     file("ball.off", shapes.off(*shapes.sphere()))
     file("tube.off", shapes.off(*shapes.tube()))
     commands = [("spheres ball.off --count 20 -o", "w.spheres"), ("tetrahedra ball.off --cells 100 --method voxels -o", "w.vtu"),
-                ("surface ball.off --nodes 100 -o", "w.off"), ("centreline tube.off -o", "w.curve"),
+                ("surface ball.off --nodes 100 -o", "w.off"), (f"spline ball.off --corners {' '.join(CORNERS)} -o", "w.off"),
+                (f"spline ball.off --corners {' '.join(CORNERS)} --scene", "w.spore"), ("centreline tube.off -o", "w.curve"),
                 ("spheres ball.off --counts 4,8 --csv", "w.csv"), ("import ball.off --unit m -o", "w.spore"),
                 (f"edit {organ()} --probe -o", "w.spore"), ("centreline tube.off --scene", "w.spore"),
                 (f"run {grasper()} --steps 20 --record", "w.track"), (f"run {soft_ball()} --steps 5 --output", "w.csv")]

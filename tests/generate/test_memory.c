@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/generate/centreline/centreline.h"
 #include "core/generate/labels/labels.h"
+#include "core/generate/sheet/sheet.h"
 #include "core/generate/surface/surface.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
 #include "tests/mesh/shapes.h"
@@ -59,6 +60,21 @@ static bool centreline(GError **to) {
   bool fine = spore_centreline_from_mesh(&capsule, &options, &curve, &report, NULL, &error) &&
               spore_centreline_measure(&capsule, &curve, &report, &error);
   spore_curve_clear(&curve);
+  return fine || spore_error_propagate(&error, to);
+}
+
+static bool sheet(GError **to) {
+  SporeTriangleMesh patch = {0};
+  SporeSheetReport report;
+  double *distance = NULL;
+  const SporeSheetOptions options = {
+      .corners_given = true,
+      .corners = {{0.01, 0.01, 0.02}, {-0.01, 0.01, 0.02}, {-0.01, -0.01, 0.02}, {0.01, -0.01, 0.02}},
+      .control_points = 6};
+  SporeError error = SPORE_ERROR_INIT;
+  bool fine = spore_sheet_from_mesh(&coarse, &options, &patch, &distance, &report, NULL, &error);
+  spore_free(distance);
+  spore_triangle_mesh_clear(&patch);
   return fine || spore_error_propagate(&error, to);
 }
 
@@ -128,12 +144,11 @@ static void fail_each(gconstpointer data) {
 }
 
 int main(int argc, char **argv) {
-  static const Part parts[] = {{"/generate/memory/surface", surface, G_MAXUINT},
-                               {"/generate/memory/wall", wall, 8},
-                               {"/generate/memory/operations", operations, G_MAXUINT},
-                               {"/generate/memory/centreline", centreline, 8},
-                               {"/generate/memory/lattice", lattice, 8},
-                               {"/generate/memory/labels", label_cells, G_MAXUINT}};
+  static const Part parts[] = {
+      {"/generate/memory/surface", surface, G_MAXUINT},       {"/generate/memory/wall", wall, 8},
+      {"/generate/memory/operations", operations, G_MAXUINT}, {"/generate/memory/centreline", centreline, 8},
+      {"/generate/memory/sheet", sheet, G_MAXUINT},           {"/generate/memory/lattice", lattice, 8},
+      {"/generate/memory/labels", label_cells, G_MAXUINT}};
   g_test_init(&argc, &argv, NULL);
   shape_ball(&ball, 0.02, 6);
   shape_ball(&coarse, 0.02, 4);

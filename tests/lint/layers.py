@@ -32,7 +32,7 @@ SIM = ["lod", "effect", "tool", "topology", "link", "solve", "contact", "state"]
 # declare no function of the head that a folder may call: circles.py looks after that.
 SIM_PUBLIC = {"core/sim/world.h", "core/sim/world_private.h"}
 # The folders of core/generate. Each has one header of its own name, and no other is included from outside the folder.
-GENERATE = {"common", "spheres", "tetrahedra", "centreline", "labels", "surface"}
+GENERATE = {"common", "spheres", "tetrahedra", "centreline", "labels", "surface", "sheet"}
 # The header that a program outside includes: it names all that is public of the library.
 UMBRELLA = "models/spore.h"
 # The folders at the top that hold sources, and which others each may use.

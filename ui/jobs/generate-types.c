@@ -293,6 +293,31 @@ static const SporeGenerateType surface_type = {
     .quality_count = G_N_ELEMENTS(surface_qualities),
 };
 
+/* Spline sheets: the patch by its distance, among the edges of the organ. */
+
+static void measure_distance_of_sheet(const SporeGenerateWork *work, SporeQuality *quality) {
+  quality->count = work->surface.vertex_count;
+  quality->values = scaled(work->surface_distance, quality->count, 1, 1e3);
+}
+
+static void show_patch(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  show_surface(&work->surface, places, candidate);
+  show_edges(&work->mesh, candidate);
+}
+
+static const SporeGenerateQuality sheet_qualities[] = {
+    {N_("Distance from the sheet"), "mm", FALSE, measure_distance_of_sheet, show_patch},
+};
+
+static const SporeGenerateType sheet_type = {
+    .shows = "sheet",
+    .counts = (const size_t[]){6, 8, 12, 16, 24, 32, 48, 0},
+    .error_label = N_("Distance"),
+    .worth = 0.1,
+    .qualities = sheet_qualities,
+    .quality_count = G_N_ELEMENTS(sheet_qualities),
+};
+
 /* Tetrahedra of all organs of a label map. */
 
 static const SporeLabelFigures *figures_of(const SporeGenerateWork *work, guint i) {
@@ -327,8 +352,8 @@ static const SporeGenerateType labels_type = {
 /* The table. */
 
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
-  static const SporeGenerateType *const types[] = {&spheres_type, &tetrahedra_type, &curve_type, &surface_type,
-                                                   &labels_type};
+  static const SporeGenerateType *const types[] = {&spheres_type, &tetrahedra_type, &curve_type,
+                                                   &surface_type, &sheet_type,      &labels_type};
   gsize i = 0;
   while (i + 1 < G_N_ELEMENTS(types) && strcmp(types[i]->shows, spore_generators[kind]->shows) != 0) i++;
   return types[i];

@@ -1,5 +1,5 @@
 /* The outline of an open sheet, and its four corners. */
-#include "models/spline/sheet_outline.h"
+#include "core/mesh/sheet_outline.h"
 
 #include <assert.h>
 #include <math.h>
@@ -239,10 +239,73 @@ void spore_sheet_outline_clear(SporeSheetOutline *outline) {
   *outline = (SporeSheetOutline){0};
 }
 
-bool spore_sheet_outline_square(SporeSheetOutline *outline, double *parameters, SporeError *error) {
+/* Corners that are given. */
+
+/* Turns the outline the way in which its triangles run along it. */
+static void follow_triangles(SporeSheetOutline *outline) {
+  const SporeTriangleMesh *mesh = outline->mesh;
+  uint32_t a = outline->vertex[0], b = outline->vertex[1];
+  for (size_t h = 0; h < 3 * mesh->triangle_count; h++)
+    if (mesh->triangles[h] == a && mesh->triangles[h % 3 == 2 ? h - 2 : h + 1] == b) return;
+  for (size_t i = 0; i < outline->count / 2; i++) {
+    uint32_t vertex = outline->vertex[i];
+    outline->vertex[i] = outline->vertex[outline->count - 1 - i], outline->vertex[outline->count - 1 - i] = vertex;
+  }
+}
+
+static size_t nearest(const SporeSheetOutline *outline, SporeVec3 p) {
+  size_t best = 0;
+  for (size_t i = 1; i < outline->count; i++)
+    if (spore_vec3_distance(p, vertex_at(outline->mesh, outline->vertex[i])) <
+        spore_vec3_distance(p, vertex_at(outline->mesh, outline->vertex[best])))
+      best = i;
+  return best;
+}
+
+/* Length of the outline from one of its places to another. */
+static double length_between(const SporeSheetOutline *outline, size_t from, size_t to) {
+  double length = 0;
+  for (size_t i = from; i != to; i = (i + 1) % outline->count)
+    length += spore_vec3_distance(vertex_at(outline->mesh, outline->vertex[i]),
+                                  vertex_at(outline->mesh, outline->vertex[(i + 1) % outline->count]));
+  return length;
+}
+
+/* The vertices nearest to the given corners, in the outline's turn. The first one is (0, 0), or the one after it, so
+ * that u runs along the longer two sides. False: they are not four, in turn either way. */
+static bool take_corners(SporeSheetOutline *outline, const double *corners, size_t corner[4]) {
+  size_t n = outline->count, ahead[4], rising = 0, falling = 0;
+  follow_triangles(outline);
+  for (size_t c = 0; c < 4; c++) corner[c] = nearest(outline, spore_vec3_load(corners + 3 * c));
+  for (size_t c = 1; c < 4; c++) {
+    ahead[c] = (corner[c] + n - corner[0]) % n;
+    rising += c == 1 ? ahead[c] > 0 : ahead[c] > ahead[c - 1];
+    falling += ahead[c] > 0 && (c == 1 || ahead[c] < ahead[c - 1]);
+  }
+  if (rising < 3 && falling < 3) return false;
+  if (falling == 3) {
+    size_t other = corner[1];
+    corner[1] = corner[3], corner[3] = other;
+  }
+  double side[4];
+  for (size_t c = 0; c < 4; c++) side[c] = length_between(outline, corner[c], corner[(c + 1) % 4]);
+  size_t first = corner[0];
+  if (side[0] + side[2] >= side[1] + side[3]) return true;
+  for (size_t c = 0; c < 3; c++) corner[c] = corner[c + 1];
+  corner[3] = first;
+  return true;
+}
+
+bool spore_sheet_outline_square(SporeSheetOutline *outline, const double *corners, double *parameters,
+                                SporeError *error) {
   assert(outline->count > 0);
   size_t corner[4] = {0};
-  if (!lay_flat(outline) || !find_corners(outline, corner))
+  if (corners) {
+    if (!take_corners(outline, corners, corner))
+      return refuse(error,
+                    _("the four corners that are given do not follow each other around the sheet's edge; expected "
+                      "four places along it, one after the other; correct them, or leave them out"));
+  } else if (!lay_flat(outline) || !find_corners(outline, corner))
     return refuse(error, _("no four corners can be told apart along the sheet's edge; a spline's sheet is roughly a "
                            "rectangle, however it is curved; cut the mesh so, or use a mass-spring net"));
   set_outline(outline, corner, parameters);

@@ -1,6 +1,6 @@
 /* The edge all around an open sheet, and where its four corners are. */
-#ifndef SPORE_MODELS_SPLINE_SHEET_OUTLINE_H
-#define SPORE_MODELS_SPLINE_SHEET_OUTLINE_H
+#ifndef SPORE_MESH_SHEET_OUTLINE_H
+#define SPORE_MESH_SHEET_OUTLINE_H
 
 #include "core/mesh/mesh.h"
 
@@ -18,7 +18,8 @@ typedef struct SporeSheetOutline {
 bool spore_sheet_outline_create(SporeSheetOutline *outline, const SporeTriangleMesh *mesh, SporeError *error);
 void spore_sheet_outline_clear(SporeSheetOutline *outline);
 /* Makes the outline the unit square, as spore_sheet_parameters says: parameters of its vertices alone. Refused: one
- * without four corners. */
-bool spore_sheet_outline_square(SporeSheetOutline *outline, double *parameters, SporeError *error);
+ * without four corners, or corners (4 x 3; NULL: none are given) that are not four, in turn around it. */
+bool spore_sheet_outline_square(SporeSheetOutline *outline, const double *corners, double *parameters,
+                                SporeError *error);
 
 #endif
