@@ -1758,7 +1758,7 @@ def a_read_only_folder_is_noticed_first():
         if nobody and subprocess.run([SPORE, "--version"], preexec_fn=nobody, capture_output=True, cwd="/").returncode != 0:
             raise Skip("another user cannot run spore here")
         for command, name in writers():
-            words = [str(word) if not pathlib.Path(word).suffix else f"no-such{pathlib.Path(word).suffix}" for word in command.split()]
+            words = [word if not re.search(r"\.[a-z]+$", word) else f"no-such{pathlib.Path(word).suffix}" for word in command.split()]
             for target in [name] + ([f"new/{name}"] if name.endswith(".spore") else []):
                 done = subprocess.run([SPORE, *words, locked / target], preexec_fn=nobody, capture_output=True, text=True, cwd="/", timeout=60)
                 assert done.returncode == 2 and "Permission denied" in done.stderr and "no-such" not in done.stderr, (words, done)
