@@ -12,7 +12,7 @@
 #define SWEEPS 2000       /* at most, */
 #define SWEEPS_EACH 40    /* and as many more for each vertex along a side */
 #define LOST 100          /* a change after which sweeps do not settle */
-#define LEAST_EXCESS 0.05 /* by which a sweep goes further */
+#define LEAST_EXCESS 0.05 /* by which a sweep goes further, but for one that does not at all */
 
 typedef enum Settled { IS_SETTLED, IS_UNSETTLED, IS_CANCELLED, HAS_NO_ROOM } Settled;
 
@@ -95,9 +95,11 @@ static Settled relax(const Means *means, size_t vertex_count, double further, do
  * and may need a smaller one; that of 1 always settles, but slowly. */
 static Settled settle(const Means *means, size_t vertex_count, double *parameters, const SporeCancel *cancel) {
   double excess = 2 / (1 + sin(M_PI / sqrt((double)vertex_count))) - 1;
-  Settled settled = IS_UNSETTLED;
-  for (; settled == IS_UNSETTLED && excess > LEAST_EXCESS; excess *= 0.9)
+  Settled settled = relax(means, vertex_count, 1 + excess, parameters, cancel);
+  while (settled == IS_UNSETTLED && excess > 0) {
+    excess = excess > LEAST_EXCESS ? 0.9 * excess : 0;
     settled = relax(means, vertex_count, 1 + excess, parameters, cancel);
+  }
   return settled;
 }
 

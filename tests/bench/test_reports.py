@@ -54,7 +54,7 @@ def interruption_leaves_whole_files_alone():
 def study_of(name, floor=1e-4, **points):
     """A study with points method=(error, cost)."""
     study = accuracy.Study(pathlib.Path(name + ".spore"))
-    study.accuracy = {"resolution": {"floor": floor}, "points": [{"method": method, "dt_s": 0.004, "error": error, "cpu_s": cost, "stable": True}
+    study.accuracy = {"resolution": {"floor": floor}, "points": [{"method": method, "dt_s": 0.004, "error": error, "cpu_s": cost, "stable": True, "sound": True}
                                                                    for method, (error, cost) in points.items()]}
     return study
 

@@ -106,6 +106,18 @@ static void test_plane(void) {
   spore_triangle_mesh_clear(&mesh);
 }
 
+/* A sheet without a vertex inside is laid out by its corners alone. */
+static void test_two_triangles(void) {
+  const double vertices[] = {0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0};
+  const uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+  SporeTriangleMesh mesh = {
+      .vertex_count = 4, .triangle_count = 2, .vertices = (double *)vertices, .triangles = (uint32_t *)triangles};
+  double at[8];
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_true(spore_sheet_parameters(&mesh, NULL, at, NULL, &error));
+  for (int k = 0; k < 8; k++) g_assert_true(at[k] == 0 || at[k] == 1);
+}
+
 /* Helices; and a sheet that is nearer to the cylinder than its facets are. */
 static void test_cylinder(void) {
   static const double place[4][2] = {{0.1, 0.1}, {0.85, 0.25}, {0.9, 0.9}, {0.2, 0.8}};
@@ -329,6 +341,7 @@ static void test_cancel(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/sheet/plane", test_plane);
+  g_test_add_func("/sheet/two-triangles", test_two_triangles);
   g_test_add_func("/sheet/cylinder", test_cylinder);
   g_test_add_func("/sheet/ball", test_ball);
   g_test_add_func("/sheet/saddle", test_saddle);
