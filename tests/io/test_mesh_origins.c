@@ -321,7 +321,7 @@ int main(int argc, char **argv) {
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/encodings", test_encodings);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/blank-lines", test_blank_lines);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/tree", test_tree);
-  g_test_add_func("/mesh-origins/tagged", test_tagged);
+  if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/tagged", test_tagged);
   g_test_add_func("/mesh-origins/vtk-forms", test_vtk_forms);
   g_test_add_func("/mesh-origins/vtk-faces", test_vtk_faces);
   g_test_add_func("/mesh-origins/vtk-refused", test_vtk_refused);
