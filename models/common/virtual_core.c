@@ -248,8 +248,9 @@ static bool add_taut(const SporeVirtualCore *core, size_t i, double k, SporeVec3
   SporeVec3 n;
   double stretch = stretch_of(core, i, d, &n);
   if (!(stretch > 0)) return false;
-  *across = k * stretch / (stretch + core->slack[i]);
-  add_along(core, i, k - *across, n, s, matrix, sum);
+  double length = stretch + core->slack[i];
+  *across = k * stretch / length;
+  add_along(core, i, k * core->slack[i] / length, n, s, matrix, sum); /* k less that across, without rounding below 0 */
   return true;
 }
 
