@@ -133,25 +133,12 @@ static const char *holder_of(SporeDocument *document, const SporeObject *body) {
   return NULL;
 }
 
-/* Whether a link ties the body. */
-static gboolean is_tied(SporeDocument *document, const SporeObject *body) {
-  const SporeObject *links = spore_document_section(document, "links");
-  for (guint i = 0; i < spore_object_child_count(links); i++) {
-    const SporeObject *link = spore_object_child(links, i);
-    const SporeParameterTable *table = spore_object_type(link)->table;
-    for (gsize p = 0; p < table->count; p++)
-      if (table->parameters[p].type == SPORE_REFERENCE &&
-          spore_object_reference(link, table->parameters[p].name) == body)
-        return TRUE;
-  }
-  return FALSE;
-}
-
 /* Whether the body is replayed as the effect that the kernel has for it. What stands still is a form of its own, and
  * what a link ties would pull at the other end of the link: these are left out instead. */
 static gboolean has_effect(const Advice *advice, const SporeObject *body, guint32 index) {
   SporeEffectForm form = spore_model_effect_form(spore_world_body_model(advice->run->simulation->world, index));
-  return (form == SPORE_EFFECT_CARRIED || form == SPORE_EFFECT_SHAPED) && !is_tied(advice->run->document, body);
+  return (form == SPORE_EFFECT_CARRIED || form == SPORE_EFFECT_SHAPED) &&
+         !spore_object_refers_to(spore_document_section(advice->run->document, "links"), body);
 }
 
 static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed, SporeEvidence *evidence,

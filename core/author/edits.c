@@ -68,11 +68,6 @@ SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, 
   return mesh;
 }
 
-SporeObject *spore_edit_body_model(SporeObject *body) {
-  SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  return mechanical && spore_object_child_count(mechanical) ? spore_object_child(mechanical, 0) : NULL;
-}
-
 /* Models. */
 
 /* The geometry that a model needs, where the body has one; NULL: leave the geometry as it is. */
@@ -111,7 +106,7 @@ static gboolean set_model(SporeDocument *document, SporeObject *body, const char
   if (*model == '\0') return !mechanical || spore_document_remove(document, mechanical, error);
   if (!mechanical) mechanical = spore_document_insert(document, body, "mechanical", NULL, G_MAXUINT, error);
   if (!mechanical) return FALSE;
-  SporeObject *old = spore_edit_body_model(body);
+  SporeObject *old = spore_body_model_object(body);
   if (old && g_str_equal(spore_object_type(old)->element, model)) return TRUE;
   if (old && !spore_document_remove(document, old, error)) return FALSE;
   SporeObject *new = spore_document_insert(document, mechanical, model, NULL, G_MAXUINT, error);
@@ -130,7 +125,7 @@ gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body,
                                      GError **error) {
   SporeModelRegistry type = spore_schema_registry(spore_document_schema(document));
   while (*type && (*type)->geometry != kind) type++;
-  return !*type || spore_edit_body_model(body) || set_model(document, body, (*type)->name, error);
+  return !*type || spore_body_model_object(body) || set_model(document, body, (*type)->name, error);
 }
 
 static gboolean use_preset(SporeDocument *document, SporeObject *model, const char *name, GError **error) {
@@ -145,7 +140,7 @@ static gboolean use_preset(SporeDocument *document, SporeObject *model, const ch
 }
 
 gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error) {
-  SporeObject *model = spore_edit_body_model(body);
+  SporeObject *model = spore_body_model_object(body);
   if (!model) return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("the body has no model; choose one first"));
   spore_document_begin(document, _("Use preset"));
   return spore_edit_finish(document, use_preset(document, model, name, error));

@@ -22,8 +22,6 @@ gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body,
                                      GError **error);
 /* Sets the parameters of the body's model to those of one of its presets. */
 gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error);
-/* Element of the body's model, or NULL. */
-SporeObject *spore_edit_body_model(SporeObject *body);
 
 /* Adds a probe that the mouse moves, just above the highest point of the scene. Returns its body. */
 SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error);

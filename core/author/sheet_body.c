@@ -18,7 +18,7 @@ static gboolean set_smoothing(SporeDocument *document, SporeObject *model, doubl
 /* A body that is a sheet already keeps its material. */
 static SporeObject *sheet_model(SporeDocument *document, SporeObject *body, SporeObject *patch, GError **error) {
   SporeObject *mechanical = spore_edit_child_or_new(document, body, "mechanical", error);
-  SporeObject *model = spore_edit_body_model(body);
+  SporeObject *model = spore_body_model_object(body);
   if (!mechanical || !spore_document_set_text(document, mechanical, "geometry", spore_object_name(patch), error))
     return NULL;
   if (model && g_str_equal(spore_object_type(model)->element, "spline_2d")) return model;

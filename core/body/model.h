@@ -316,6 +316,10 @@ bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node
 void spore_model_clear(SporeModel *model);
 /* Whether all blocks are nodes: the model has no frame. */
 static inline bool spore_model_is_nodal(const SporeModel *model) { return model->node_count == model->block_count; }
+/* Whether an effect can take the place of the physics of such models. */
+static inline bool spore_model_type_has_effect(const SporeModelType *type) {
+  return !type->particles || type->particles->carry;
+}
 /* Whether the model's elements can be met one after the other. */
 static inline bool spore_model_sweeps(const SporeModel *model) {
   const SporeModelSweep *sweep = model->type->sweep;

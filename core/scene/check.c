@@ -75,15 +75,6 @@ static const SporeObject *holder_of(SporeCheck *check, const SporeObject *body) 
   return NULL;
 }
 
-/* Whether an effect can take the place of the body's model. */
-static gboolean has_effect(const SporeObject *body) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  const SporeModelType *type = mechanical && spore_object_child_count(mechanical) > 0
-                                   ? spore_object_type(spore_object_child(mechanical, 0))->model
-                                   : NULL;
-  return !type || !type->particles || type->particles->carry;
-}
-
 static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role) {
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *holder = holder_of(check, body);
   SporeFidelityState state = spore_fidelity_state(check->document, fidelity);
@@ -98,7 +89,7 @@ static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role)
   if (role != SPORE_PASSIVE)
     spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, or the role passive"),
                     _("\"%s\" is to be an effect, and physics does not move it anyway"), name);
-  else if (!has_effect(body))
+  else if (!spore_body_has_effect(body))
     spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical"),
                     _("\"%s\" is to be an effect, and there is none for its model: it is simulated"), name);
   else if (holder)
@@ -173,11 +164,9 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
 
 /* The model by which physics moves the body; NULL: physics does not move it. */
 static const SporeModelType *moving_model(const SporeObject *body) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  if ((SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE || !mechanical ||
-      spore_object_child_count(mechanical) == 0)
-    return NULL;
-  return spore_object_type(spore_object_child(mechanical, 0))->model;
+  const SporeObject *model = spore_body_model_object(body);
+  return model && (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE ? spore_object_type(model)->model
+                                                                                : NULL;
 }
 
 typedef gboolean (*CanBeChanged)(const SporeModelType *type);

@@ -139,9 +139,8 @@ static double drop_to(const Start *start, const Ball *falling, const Ball *under
 
 /* Air holds smoke up. */
 static const SporeModelParticles *particles_of(const SporeObject *body) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  if (!mechanical || spore_object_child_count(mechanical) == 0) return NULL;
-  return spore_object_type(spore_object_child(mechanical, 0))->model->particles;
+  const SporeObject *model = spore_body_model_object(body);
+  return model ? spore_object_type(model)->model->particles : NULL;
 }
 
 static gboolean is_smoke(const SporeObject *body) {
@@ -152,8 +151,7 @@ static gboolean is_smoke(const SporeObject *body) {
 /* Whether an effect moves the body: it does not fall. */
 static gboolean is_effect(const Start *start, const SporeObject *body) {
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  const SporeModelParticles *particles = particles_of(body);
-  return (!particles || particles->carry) &&
+  return spore_body_has_effect(body) &&
          spore_fidelity_state(start->check->document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
 }
 

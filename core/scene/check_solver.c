@@ -6,18 +6,13 @@
 #include "core/scene/check_private.h"
 #include "core/scene/schema_fields.h"
 
-static const SporeObject *model_of(const SporeObject *body) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
-}
-
 static gboolean is_passive(const SporeObject *body) {
-  return model_of(body) && (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
+  return spore_body_model_object(body) && (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
 }
 
 /* Whether the body's model consists of particles: it has no Jacobian, and explicit steps move it. */
 static gboolean has_particles(const SporeObject *body) {
-  return spore_object_type(model_of(body))->model->rates != NULL;
+  return spore_object_type(spore_body_model_object(body))->model->rates != NULL;
 }
 
 /* What the body itself chooses, or SPORE_INTEGRATOR_DEFAULT. */
@@ -129,7 +124,7 @@ static gboolean has_companion(const SporeCheck *check, const SporeObject *body, 
 }
 
 static gboolean keeps_shape(const SporeObject *body) {
-  const SporeObject *model = model_of(body);
+  const SporeObject *model = spore_body_model_object(body);
   const SporeModelType *type = model ? spore_object_type(model)->model : NULL;
   return type && type->inertia && !type->jacobian;
 }

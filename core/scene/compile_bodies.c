@@ -87,12 +87,6 @@ static gboolean find_root(SporeCompiler *compiler, const SporeObject *mechanical
   return geometry->root != NULL;
 }
 
-/* The object of a body's model, or NULL. */
-static SporeObject *model_object(const SporeObject *body) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
-}
-
 /* Regions. */
 
 /* Multiplies *scale by the ratio of the tissue's value to the model's own value of a parameter. */
@@ -155,7 +149,7 @@ static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, 
 }
 
 static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
-  const SporeObject *object = model_object(body);
+  const SporeObject *object = spore_body_model_object(body);
   if (!object)
     return spore_compiler_refuse(
         compiler, body,
@@ -222,7 +216,7 @@ static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, S
 }
 
 static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
-  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = model_object(body);
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = spore_body_model_object(body);
   SporeLodDescription *levels = &description->lod;
   SporeFidelityFields fields;
   /* A model that the role leaves unused leaves its levels unused; check says so. */
@@ -251,7 +245,7 @@ static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, Spo
 }
 
 gboolean spore_body_has_own_spheres(const SporeObject *body) {
-  const SporeObject *collision = spore_object_child_of(body, "collision"), *model = model_object(body);
+  const SporeObject *collision = spore_object_child_of(body, "collision"), *model = spore_body_model_object(body);
   return (int)spore_object_number(body, "role") == SPORE_PASSIVE && collision && model &&
          !spore_object_text(collision, "spheres") && spore_object_type(model)->model->spheres;
 }

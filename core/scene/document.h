@@ -52,6 +52,10 @@ const char *spore_object_text(const SporeObject *object, const char *property); 
 const SporeTissue *spore_object_tissue(const SporeObject *model);
 /* The object that a reference names; NULL: not set, or nothing has that name. */
 SporeObject *spore_object_reference(const SporeObject *object, const char *property);
+/* The mechanical model of a body; NULL: it has none. */
+SporeObject *spore_body_model_object(const SporeObject *body);
+/* Whether a property of the object, or of a child of it, names the target. */
+gboolean spore_object_refers_to(const SporeObject *object, const SporeObject *target);
 /* The place for messages: "FILE:LINE:COLUMN" where the object came from a file, else its path. g_free. */
 char *spore_object_where(const SporeObject *object);
 /* Fills a structure of the type's table with the values in force; texts are borrowed until the next change. */

@@ -174,6 +174,22 @@ SporeObject *spore_object_reference(const SporeObject *object, const char *prope
   return spore_document_find(object->document, elements, spore_object_value(object, (guint)index)->text);
 }
 
+SporeObject *spore_body_model_object(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
+}
+
+gboolean spore_object_refers_to(const SporeObject *object, const SporeObject *target) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (gsize i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_REFERENCE &&
+        spore_object_reference(object, table->parameters[i].name) == target)
+      return TRUE;
+  for (guint i = 0; i < spore_object_child_count(object); i++)
+    if (spore_object_refers_to(spore_object_child(object, i), target)) return TRUE;
+  return FALSE;
+}
+
 void spore_object_fields(const SporeObject *object, void *fields) {
   const SporeParameterTable *table = object->type->table;
   for (guint i = 0; i < table->count; i++)

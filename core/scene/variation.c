@@ -113,18 +113,6 @@ static gboolean vary_contact(SporeDocument *copy, SporeObject *body, double fact
   return set_number(copy, collision, "stiffness", factor * spore_object_number(collision, "stiffness"), error);
 }
 
-/* Whether the object, or a child of it, names the target. */
-static gboolean refers_to(SporeObject *object, const SporeObject *target) {
-  const SporeParameterTable *table = spore_object_type(object)->table;
-  for (gsize i = 0; i < table->count; i++)
-    if (table->parameters[i].type == SPORE_REFERENCE &&
-        spore_object_reference(object, table->parameters[i].name) == target)
-      return TRUE;
-  for (guint i = 0; i < spore_object_child_count(object); i++)
-    if (refers_to(spore_object_child(object, i), target)) return TRUE;
-  return FALSE;
-}
-
 /* Removes what names the body; pins_alone: of links only pins. */
 static gboolean untie(SporeDocument *copy, const SporeObject *body, gboolean pins_alone, GError **error) {
   static const char *const sections[] = {"links", "effects"};
@@ -132,7 +120,9 @@ static gboolean untie(SporeDocument *copy, const SporeObject *body, gboolean pin
     SporeObject *section = spore_document_section(copy, sections[k]);
     for (guint i = spore_object_child_count(section); i-- > 0;) {
       SporeObject *object = spore_object_child(section, i);
-      if (!refers_to(object, body) || (pins_alone && strcmp(spore_object_type(object)->element, "pin") != 0)) continue;
+      if (!spore_object_refers_to(object, body) ||
+          (pins_alone && strcmp(spore_object_type(object)->element, "pin") != 0))
+        continue;
       if (!spore_document_remove(copy, object, error)) return FALSE;
     }
   }

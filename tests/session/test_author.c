@@ -230,7 +230,7 @@ static void test_usual_model(Fixture *fixture, gconstpointer data) {
   SporeTetrahedralMesh mesh = {4, 1, corners, numbers};
   SporeObject *body = add_organ(fixture);
   g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, &error));
-  SporeObject *model = spore_edit_body_model(body);
+  SporeObject *model = spore_body_model_object(body);
   g_assert_cmpstr(spore_object_type(model)->element, ==, "neo_hookean_tetrahedra");
   g_autofree char *made = text_of(fixture);
   g_assert_true(spore_edit_use_preset(fixture->document, body, "liver", &error));
@@ -241,7 +241,7 @@ static void test_usual_model(Fixture *fixture, gconstpointer data) {
   g_clear_error(&error);
   g_assert_true(spore_edit_set_model(fixture->document, body, "corotational_tetrahedra", &error));
   g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, &error));
-  g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "corotational_tetrahedra");
+  g_assert_cmpstr(spore_object_type(spore_body_model_object(body))->element, ==, "corotational_tetrahedra");
 }
 
 /* One tetrahedron, and so the body's own. */
@@ -418,7 +418,7 @@ static void test_set_model(Fixture *fixture, gconstpointer data) {
   SporeObject *body = add_organ(fixture);
   g_autofree char *before = text_of(fixture);
   g_assert_true(spore_edit_set_model(fixture->document, body, "mass_spring_net", &error));
-  g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "mass_spring_net");
+  g_assert_cmpstr(spore_object_type(spore_body_model_object(body))->element, ==, "mass_spring_net");
   g_assert_cmpstr(spore_object_text(spore_object_child_of(body, "mechanical"), "geometry"), ==, "my_organ");
   g_assert_cmpint((int)spore_object_number(body, "role"), ==, SPORE_PASSIVE);
   assert_one_step(fixture, before);
@@ -429,7 +429,7 @@ static void test_set_model(Fixture *fixture, gconstpointer data) {
   g_autofree char *kept = text_of(fixture);
   g_assert_cmpstr(kept, ==, net);
   g_assert_true(spore_edit_set_model(fixture->document, body, "", &error));
-  g_assert_null(spore_edit_body_model(body));
+  g_assert_null(spore_body_model_object(body));
   g_assert_cmpint((int)spore_object_number(body, "role"), ==, SPORE_UNMOVABLE);
 }
 

@@ -92,7 +92,7 @@ static void test_middle_line(Fixture *fixture, gconstpointer data) {
   double length = spore_curve_length(spore_document_curve(fixture->document, asset, NULL));
   g_assert_cmpfloat_with_epsilon(length, 0.04, 0.002);
   g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
-  g_assert_cmpstr(spore_object_type(spore_edit_body_model(fixture->body))->element, ==, "spline_1d");
+  g_assert_cmpstr(spore_object_type(spore_body_model_object(fixture->body))->element, ==, "spline_1d");
   SporeObject *links = spore_document_section(fixture->document, "links");
   g_assert_cmpuint(spore_object_child_count(links), ==, 2);
 

@@ -169,7 +169,7 @@ static void show_facts(SporeInspector *self) {
   if (self->measured_facts) show_measured(self);
   SporeObject *body = spore_editor_document_selected_body(self->document);
   if (!body || !self->model) return;
-  SporeObject *model = spore_edit_body_model(body);
+  SporeObject *model = spore_body_model_object(body);
   show_mesh_facts(self, body);
   for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++)
     if (self->generators[kind]) show_generated(self, body, kind);
@@ -301,7 +301,7 @@ static void add_body(SporeInspector *self, SporeObject *body) {
   add_visual(self, body, path);
   add_collision(self, body, path);
   add_mechanical(self, body, path);
-  SporeObject *model = spore_edit_body_model(body);
+  SporeObject *model = spore_body_model_object(body);
   if (model) {
     add_model(self, model);
     add_regions(self, body, model);

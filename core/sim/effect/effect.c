@@ -9,8 +9,8 @@
 #include "core/sim/world_private.h"
 
 SporeEffectForm spore_model_effect_form(const SporeModel *model) {
-  const SporeModelParticles *particles = model->type->particles;
-  if (particles) return particles->carry ? SPORE_EFFECT_CARRIED : SPORE_EFFECT_NONE;
+  if (!spore_model_type_has_effect(model->type)) return SPORE_EFFECT_NONE;
+  if (model->type->particles) return SPORE_EFFECT_CARRIED;
   return spore_model_is_nodal(model) ? SPORE_EFFECT_SHAPED : SPORE_EFFECT_STILL;
 }
 
