@@ -77,7 +77,8 @@ static void say_work(gpointer data, const char *sentence, const char *remedy) {
 static void remark_coupled(GString *remarks, const char *body, const SporeMethod *method, gboolean particles) {
   const char *implicit = spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER];
   if (method->coupled == SPORE_COUPLED_CONTACTS && particles)
-    g_string_append_printf(remarks, _("%s: contacts that its step does not resolve are implicit\n"), body);
+    g_string_append_printf(
+        remarks, _("%s: contacts that its step does not resolve are met in a few substeps, or are implicit\n"), body);
   else if (method->coupled == SPORE_COUPLED_CONTACTS)
     g_string_append_printf(remarks, _("%s: %s moves it in steps that do not resolve its contacts\n"), body, implicit);
   if (method->coupled == SPORE_COUPLED_CONTACTS && !particles && method->margin > 0)
@@ -86,7 +87,9 @@ static void remark_coupled(GString *remarks, const char *body, const SporeMethod
                              "apart at most\n"),
                            body, implicit, method->margin);
   if (method->coupled == SPORE_COUPLED_LINKS && particles)
-    g_string_append_printf(remarks, _("%s: its step does not resolve its links, which are implicit\n"), body);
+    g_string_append_printf(
+        remarks, _("%s: its step does not resolve its links, which are met in a few substeps, or are implicit\n"),
+        body);
   else if (method->coupled == SPORE_COUPLED_LINKS && method->resolving > 0)
     g_string_append_printf(remarks,
                            _("%s: %s moves it, since its step does not resolve its links; %zu substeps would\n"), body,

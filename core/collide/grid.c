@@ -17,7 +17,7 @@
  * a fresh search. */
 #define SKIN_STEPS                                                                                                     \
   12 /* the skin lasts for so many steps at the speed of now, however fast: one stray is enough to end a list */
-#define SKIN_SMALLEST 0.1 /* of the radius */
+#define SKIN_SMALLEST 0.3 /* of the radius */
 #define LIST_STEPS 3      /* a list that serves for fewer steps does not pay */
 #define PAUSE_LONGEST 128
 #define CONTACT_PAIRS 3 /* room for pairs, per contact that there is room for */

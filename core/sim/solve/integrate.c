@@ -108,15 +108,35 @@ static bool some_go_alone(const SporeWorld *world, const SporeIsland *island) {
   return false;
 }
 
+#define FEW_SUBSTEPS 3 /* of particles: so many cost less than the two passes and the stage of a multirate step */
+
+/* Particles alone, of the same substeps, take a few more of them in this step where these resolve all contacts and
+ * links. */
+static bool resolve_by_few_substeps(SporeWorld *world, SporeIsland *island) {
+  assert(island->substeps >= 1);
+  for (size_t i = 0; i < island->kept_count; i++) {
+    const SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
+    if (!spore_body_goes_alone(body) || body->method.substeps != island->substeps) return false;
+  }
+  const SporeIslandSystem system = {.world = world, .island = island};
+  for (size_t n = 2; n <= FEW_SUBSTEPS; n++) {
+    if (!spore_island_system_resolves(&system, step_of(world, island), n, true)) continue;
+    island->substeps *= n;
+    return true;
+  }
+  return false;
+}
+
 /* An explicit island with contacts or links that its step does not resolve takes this step by implicit Euler, unless
- * the contacts are met in its sweep. Particles keep their own method: only contacts and links are implicit. */
+ * the contacts are met in its sweep, or a few substeps resolve them. Particles keep their own method: only contacts and
+ * links are implicit. */
 static void couple(SporeWorld *world, SporeIsland *island) {
   if (spore_integrator(island->integrator)->implicit) return;
   SporeIslandSystem system = {.world = world, .island = island};
   system.meets = spore_island_system_can_meet(&system);
-  if ((system.meets || !meets_in_step(world, island)) &&
-      spore_island_system_resolves(&system, step_of(world, island), true))
-    return;
+  bool steady = system.meets || !meets_in_step(world, island);
+  if (steady && spore_island_system_resolves(&system, step_of(world, island), 1, true)) return;
+  if (steady && resolve_by_few_substeps(world, island)) return;
   island->multirate = some_go_alone(world, island);
   island->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
   spore_island_gather(world, island); /* with the history of that method */
@@ -127,12 +147,12 @@ static size_t substeps_to_resolve(SporeWorld *world, const SporeIsland *island) 
   const SporeIslandSystem system = {.world = world, .island = island};
   size_t low = 0, high = 1;
   while (high <= SPORE_SUBSTEPS_MAXIMUM &&
-         !spore_island_system_resolves(&system, world->solver.time_step / (double)high, true))
+         !spore_island_system_resolves(&system, world->solver.time_step / (double)high, 1, true))
     low = high, high *= 2;
   if (high > SPORE_SUBSTEPS_MAXIMUM) return 0;
   while (high - low > 1) {
     size_t middle = (low + high) / 2;
-    if (spore_island_system_resolves(&system, world->solver.time_step / (double)middle, true)) high = middle;
+    if (spore_island_system_resolves(&system, world->solver.time_step / (double)middle, 1, true)) high = middle;
     else low = middle;
   }
   return high;
@@ -153,7 +173,7 @@ SporeCoupled spore_body_coupled(SporeWorld *world, uint32_t index, size_t *resol
   if (alike.multirate) return SPORE_COUPLED_LINKS;
   spore_island_gather(world, &alike);
   const SporeIslandSystem system = {.world = world, .island = &alike};
-  if (spore_island_system_resolves(&system, step_of(world, &alike), true)) return otherwise;
+  if (spore_island_system_resolves(&system, step_of(world, &alike), 1, true)) return otherwise;
   *resolving = substeps_to_resolve(world, &alike);
   return SPORE_COUPLED_LINKS;
 }
@@ -166,7 +186,7 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
   bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
   if (!integrator->implicit || integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
   const SporeIslandSystem system = {.world = world, .island = island};
-  bool resolved = spore_island_system_resolves(&system, step_of(world, island), false);
+  bool resolved = spore_island_system_resolves(&system, step_of(world, island), 1, false);
   return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
 }
 

@@ -183,11 +183,14 @@ static bool resolves(const SporeIslandSystem *system, double h, double inverse_m
   return h * inverse_mass * (h * stiffness + damping) <= RESOLVED;
 }
 
-static bool resolves_contacts(const SporeIslandSystem *system, double h, const double *counts) {
+/* A contact is found where the step begins, as deep as its bodies came in the one before: no substep makes that less.
+ */
+static bool resolves_contacts(const SporeIslandSystem *system, double h, size_t substeps, const double *counts) {
+  assert(substeps >= 1);
   for (size_t i = 0; i < system->island->contact_count; i++) {
     const SporeContactTerm *term = spore_island_system_contact(system, i);
     double inverse_mass = contact_inverse_mass(system->world, term, counts);
-    if (!resolves(system, h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
+    if (!resolves(system, h, inverse_mass, term->law.stiffness, term->law.damping / (double)substeps)) return false;
   }
   return true;
 }
@@ -216,12 +219,13 @@ double spore_island_system_short_step(const SporeIslandSystem *system, double pa
   return isfinite(step) ? step : 0;
 }
 
-bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links) {
-  assert(h > 0);
+bool spore_island_system_resolves(const SporeIslandSystem *system, double h, size_t substeps, bool links) {
+  assert(h > 0 && substeps >= 1);
   if (system->island->contact_count + (links ? system->island->spring_count : 0) == 0) return true;
   double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
   count_terms(system, counts);
-  return (system->meets || resolves_contacts(system, h, counts)) && (!links || resolves_springs(system, h, counts));
+  return (system->meets || resolves_contacts(system, h, substeps, counts)) &&
+         (!links || resolves_springs(system, h / (double)substeps, counts));
 }
 
 static void term_force(void *data, const double *q, const double *v, double *f) {

@@ -42,8 +42,10 @@ typedef struct SporeIslandSystem {
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 /* Whether a step of h seconds is short for all contacts of the island, and for its links: h w (h k + d) is at most
- * 0.25, w the sum of n/m over the blocks of both ends, n the number of terms that share a block. */
-bool spore_island_system_resolves(const SporeIslandSystem *system, double h, bool links);
+ * 0.25, w the sum of n/m over the blocks of both ends, n the number of terms that share a block. Taken in substeps, h
+ * is that much less for links and for the damping of contacts; but not for their stiffness, since contacts are found
+ * once a step. */
+bool spore_island_system_resolves(const SporeIslandSystem *system, double h, size_t substeps, bool links);
 /* The longest step, s, with (h^2 w k + (h w d)^2)^1/2 no more than `part`, in radians, for all contacts; 0: none has a
  * stiffness or damping. For islands without links. */
 double spore_island_system_short_step(const SporeIslandSystem *system, double part);

@@ -80,6 +80,10 @@ static void invert_diagonal(const SporeIslandSystem *system, SporeBody *body, co
   size_t nodes = body->model->node_count;
   body->preconditioner.rounding_soft = body->preconditioner.rounding_stiff = 0;
   for (size_t i = 0; i < body->block_count; i++, blocks += 9, mass += 9, inverse += 9) {
+    if (memcmp(blocks, mass, 9 * sizeof *mass) == 0) { /* nothing is stiff there */
+      memcpy(blocks, inverse, 9 * sizeof *inverse);
+      continue;
+    }
     double weight = (inverse[0] + inverse[4] + inverse[8]) / 3, stiff = stiffness_of(blocks, mass);
     double size = spore_vec3_length(spore_vec3_load(q + 3 * (i < nodes ? i : nodes - 1)));
     if (nodes < body->block_count) size += 1; /* an orientation is known to rounding of 1 */
