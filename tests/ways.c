@@ -4,6 +4,7 @@
 #include <execinfo.h>
 
 #include "core/base/memory.h"
+#include "core/scene/error.h"
 
 #define FRAMES 6 /* of the stack, which tell one way to an allocation from another */
 
@@ -87,6 +88,28 @@ GArray *ways_end(guint *count) {
   g_clear_pointer(&ways, g_hash_table_unref);
   g_array_sort(chosen, compare);
   return chosen;
+}
+
+void ways_fail_each(WaysWork *work, guint most) {
+  GError *error = NULL;
+  guint count, refused = 0;
+  ways_begin();
+  bool whole = work(&error);
+  g_assert_no_error(error);
+  g_assert_true(whole);
+  g_autoptr(GArray) failing = ways_end(&count);
+  guint stride = MAX(failing->len / most, 1);
+  for (guint i = 0; i < failing->len; i += stride) {
+    spore_allocation_fail_at(g_array_index(failing, guint64, i));
+    bool fine = work(&error);
+    spore_allocation_fail_at(0);
+    if (!fine) g_assert_error(error, SPORE_ERROR, SPORE_ERROR_MEMORY);
+    refused += !fine;
+    g_clear_error(&error);
+  }
+  g_test_message("%u ways to an allocation: refused %u times of %u", count, refused,
+                 (failing->len + stride - 1) / stride);
+  g_assert_cmpuint(refused, >, 0);
 }
 
 void ways_clear(void) { g_clear_pointer(&known, g_hash_table_unref); }

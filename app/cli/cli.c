@@ -319,11 +319,9 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error) {
   Read read = {.file = file, .unit = unit, .frame = frame};
-  g_autofree guint32 *parts = NULL;
-  g_auto(GStrv) names = NULL;
   if (!read_content(&read, error)) return FALSE;
   g_autoptr(GBytes) whole = read.content;
-  if (!decode(cli, &read, mesh, &parts, &names, error)) return FALSE;
+  if (!decode(cli, &read, mesh, NULL, NULL, error)) return FALSE;
   if (content) *content = g_steal_pointer(&whole);
   if (unit_index) *unit_index = read.unit_chosen;
   if (frame_index) *frame_index = read.frame_chosen;

@@ -7,6 +7,7 @@
 #include "app/cli/tetrahedra_parts.h"
 #include "app/cli/tetrahedra_surroundings.h"
 #include "core/author/generated_edits.h"
+#include "core/base/memory.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
@@ -84,7 +85,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   spore_cli_options_fill(asked, &fields);
   SporeTetrahedraOptions options = spore_edit_tetrahedra_options(
       &fields, (const SporeGenerateRegion *)(gconstpointer)asked->regions->data, asked->regions->len);
-  g_autofree guint32 *parts = NULL;
+  guint32 *parts = NULL;
   g_auto(GStrv) names = NULL;
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
@@ -101,6 +102,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
     done = spore_write_file(output, text, size, &error);
   }
   if (done) report(cli, &mesh, &options, &figures);
+  spore_free(parts);
   spore_triangle_mesh_clear(&surface);
   spore_tetrahedral_mesh_clear(&mesh);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);

@@ -6,6 +6,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/generator_work.h"
+#include "core/base/memory.h"
 #include "core/scene/schema_tables.h"
 
 static const SporeParameter curve_parameters[] = {
@@ -106,7 +107,7 @@ static bool propose_root(SporeGenerateWork *work, SporeError *failure) {
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
-  options.way = work->curve_way = g_try_new(double, work->mesh.vertex_count + 1);
+  options.way = work->curve_way = SPORE_NEW_ARRAY(double, work->mesh.vertex_count);
   if (!options.way) spore_error_set(&failure, SPORE_ERROR_MEMORY, NULL, "%s", _("not enough memory"));
   else if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure) &&
            propose_root(work, &failure))

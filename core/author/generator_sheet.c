@@ -6,7 +6,6 @@
 #include "core/author/generated_edits.h"
 #include "core/author/generator.h"
 #include "core/author/generator_work.h"
-#include "core/base/memory.h"
 
 static const char *const options_taken[] = {"first_corner",  "second_corner", "third_corner",
                                             "fourth_corner", "inside",        "control_points",
@@ -35,12 +34,9 @@ static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   const SporeSheetOptions options = spore_edit_sheet_options(&work->options.fields.surface);
-  double *distance = NULL;
-  gboolean done =
-      spore_sheet_from_mesh(&work->mesh, &options, &work->surface, &distance, &work->sheet_report, progress, &failure);
-  work->surface_distance = done ? g_memdup2(distance, work->surface.vertex_count * sizeof *distance) : NULL;
-  spore_free(distance);
-  if (done) return TRUE;
+  if (spore_sheet_from_mesh(&work->mesh, &options, &work->surface, &work->surface_distance, &work->sheet_report,
+                            progress, &failure))
+    return TRUE;
   spore_error_at(&failure, work->source);
   return spore_error_propagate(&failure, error);
 }

@@ -6,6 +6,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/generator_work.h"
+#include "core/base/memory.h"
 #include "core/scene/length_unit.h"
 #include "core/scene/schema_tables.h"
 
@@ -192,7 +193,7 @@ static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, Sp
 
 /* Measures the distance of each vertex of the given mesh from the result. */
 static bool measure(SporeGenerateWork *work, SporeError *failure) {
-  work->surface_distance = g_try_new(double, work->mesh.vertex_count + 1);
+  work->surface_distance = SPORE_NEW_ARRAY(double, work->mesh.vertex_count);
   if (!work->surface_distance) return spore_error_set(failure, SPORE_ERROR_MEMORY, NULL, "%s", _("not enough memory"));
   SporeBvh *bvh = spore_bvh_create(&work->surface, failure);
   if (!bvh) return false;

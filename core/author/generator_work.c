@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/author/edits.h"
+#include "core/base/memory.h"
 #include "core/scene/generated.h"
 
 /* Options. */
@@ -117,9 +118,9 @@ static void clear_work(gpointer data) {
   g_clear_pointer(&work->options.labels, spore_label_source_unref);
   spore_curve_clear(&work->curve);
   spore_curve_clear(&work->root);
-  g_free(work->curve_way);
+  spore_free(work->curve_way);
   spore_triangle_mesh_clear(&work->surface);
-  g_free(work->surface_distance);
+  spore_free(work->surface_distance);
 }
 
 SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work) { return g_atomic_rc_box_acquire(work); }

@@ -1,4 +1,5 @@
-/* Memory. Every allocation of the kernel passes here, so that tests can count and refuse them. */
+/* Memory. Every allocation of the kernel passes here, and above it every one of a size that comes from a file and may
+ * be refused, so that tests can count and refuse them. */
 #ifndef SPORE_BASE_MEMORY_H
 #define SPORE_BASE_MEMORY_H
 

@@ -8,21 +8,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The head followed by the bytes of the file; NULL: it is no regular file, or cannot be read whole. */
-static GBytes *join(const void *head, gsize size, int file, gsize most) {
+#include "core/base/memory.h"
+
+/* The head followed by the bytes of the file; NULL with the reason, an errno: ENXIO for what is no regular file or too
+ * large. */
+static GBytes *join(const void *head, gsize size, int file, gsize most, int *reason) {
   struct stat info;
   gsize have = 0;
   gssize got = 1;
+  *reason = ENXIO;
   if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < 0 || (guint64)info.st_size > most)
     return NULL;
+  *reason = ENOMEM;
   const gsize wanted = (gsize)info.st_size;
-  char *whole = g_try_malloc(size + wanted + 1);
+  char *whole = SPORE_NEW_ARRAY(char, size + wanted);
   if (!whole) return NULL;
   if (size) memcpy(whole, head, size);
   while (have < wanted && got > 0)
     if ((got = read(file, whole + size + have, wanted - have)) > 0) have += (gsize)got;
-  if (got >= 0) return g_bytes_new_take(whole, size + have);
-  g_free(whole);
+  *reason = errno;
+  if (got >= 0) return g_bytes_new_with_free_func(whole, size + have, spore_free, whole);
+  spore_free(whole);
   return NULL;
 }
 
@@ -39,13 +45,16 @@ GBytes *spore_beside_read(const char *file, const char *name, const void *head, 
   /* Follows no link out of the folder, and waits for no pipe. */
   int part = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
   int reason = errno;
-  GBytes *whole = part >= 0 ? join(head, size, part, most) : NULL;
+  GBytes *whole = part >= 0 ? join(head, size, part, most, &reason) : NULL;
   if (part >= 0) close(part);
   if (whole) return whole;
-  if (part < 0 && reason == ENOENT)
+  if (reason == ENOMEM)
+    spore_error_raise(error, SPORE_ERROR_MEMORY, file,
+                      _("there is not enough memory to import it; close other programs"));
+  else if (reason == ENOENT)
     spore_error_raise(error, SPORE_ERROR_FILE, file,
                       _("its other file \"%s\" is not there; expected it in the same folder; copy both files"), name);
-  else if (part < 0 && reason != ELOOP && reason != ENXIO)
+  else if (reason != ELOOP && reason != ENXIO)
     spore_error_raise(error, SPORE_ERROR_FILE, file, _("its other file \"%s\" cannot be read (%s); check it"), name,
                       g_strerror(reason));
   else

@@ -5,6 +5,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/io/json_scan.h"
 #include "core/mesh/mesh.h"
 
@@ -251,11 +252,11 @@ static void check_totals(Gltf *gltf) {
 }
 
 static gboolean allocate(Gltf *gltf) {
-  gltf->elements = g_try_new0(guint64, gltf->counts[ACCESSORS] + 1);
-  gltf->vertices = g_try_new0(guint64, gltf->counts[MESHES] + 1);
-  gltf->corners = g_try_new0(guint64, gltf->counts[MESHES] + 1);
-  gltf->parents = g_try_new(guint32, gltf->counts[NODES] + 1);
-  gltf->roots = g_try_new0(guint32, gltf->counts[NODES] + 1);
+  gltf->elements = SPORE_NEW_ARRAY(guint64, gltf->counts[ACCESSORS] + 1);
+  gltf->vertices = SPORE_NEW_ARRAY(guint64, gltf->counts[MESHES] + 1);
+  gltf->corners = SPORE_NEW_ARRAY(guint64, gltf->counts[MESHES] + 1);
+  gltf->parents = SPORE_NEW_ARRAY(guint32, gltf->counts[NODES] + 1);
+  gltf->roots = SPORE_NEW_ARRAY(guint32, gltf->counts[NODES] + 1);
   if (gltf->elements && gltf->vertices && gltf->corners && gltf->parents && gltf->roots) {
     for (gsize i = 0; i < gltf->counts[NODES]; i++) gltf->parents[i] = NONE;
     return TRUE;
@@ -286,10 +287,10 @@ gboolean spore_gltf_check(const char *place, const char *text, gsize size, GErro
   if (gltf.json.bad)
     fail(&gltf, _("the glTF text is not the JSON of a mesh, near byte %zu; expected glTF 2.0; export the mesh again"),
          (gsize)(gltf.json.at - text));
-  g_free(gltf.elements);
-  g_free(gltf.vertices);
-  g_free(gltf.corners);
-  g_free(gltf.parents);
-  g_free(gltf.roots);
+  spore_free(gltf.elements);
+  spore_free(gltf.vertices);
+  spore_free(gltf.corners);
+  spore_free(gltf.parents);
+  spore_free(gltf.roots);
   return !gltf.failed;
 }

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/io/helper_wire.h"
 
@@ -181,7 +182,8 @@ static void take_frame(HelperRun *run) {
     take_error(run);
     break;
   case SPORE_FRAME_ANSWER:
-    run->answer = g_bytes_new_take(g_steal_pointer(&run->body), run->head.size);
+    run->answer = g_bytes_new_with_free_func(run->body, run->head.size, spore_free, run->body);
+    run->body = NULL;
     break;
   case SPORE_FRAME_NOTE: {
     char *note = clean_text(run->body, run->head.size);
@@ -192,7 +194,7 @@ static void take_frame(HelperRun *run) {
   case SPORE_FRAME_REQUEST:
     break;
   }
-  g_clear_pointer(&run->body, g_free);
+  g_clear_pointer(&run->body, spore_free);
   run->head_filled = run->body_filled = 0;
 }
 
@@ -207,7 +209,7 @@ static gboolean open_frame(HelperRun *run) {
     return fail(run, SPORE_ERROR_INPUT,
                 _("the result has %llu bytes; expected at most %llu; give a smaller input or ask for less"),
                 (unsigned long long)run->head.size, (unsigned long long)most);
-  run->body = g_try_malloc(run->head.size + 1);
+  run->body = SPORE_NEW_ARRAY(char, run->head.size);
   if (!run->body)
     return fail(run, SPORE_ERROR_MEMORY, _("there is not enough memory for the result; close other programs"));
   return TRUE;
@@ -325,7 +327,7 @@ GBytes *spore_helper_run(const char *program, const char *place, GBytes *request
   close_file(&run.request_file);
   close_file(&run.answer_file);
   close_file(&run.complaint_file);
-  g_free(run.body);
+  spore_free(run.body);
   g_free(path);
   return run.answer;
 }

@@ -5,6 +5,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/io/helper.h"
 #include "core/io/import_wire.h"
 #include "core/io/mesh_format.h"
@@ -54,7 +55,7 @@ typedef struct Raw {
 
 static void clear_raw(Raw *raw) {
   spore_triangle_mesh_clear(&raw->mesh);
-  g_clear_pointer(&raw->part, g_free);
+  g_clear_pointer(&raw->part, spore_free);
   g_clear_pointer(&raw->parts, g_array_unref);
 }
 
@@ -97,7 +98,7 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
   gsize vertex_bytes = head.vertex_count * 3 * sizeof(double),
         triangle_bytes = head.triangle_count * 3 * sizeof(guint32),
         part_bytes = MIN(head.part_count, head.triangle_count) * sizeof(SporeImportPart);
-  raw->part = g_try_new(guint32, head.triangle_count + 1);
+  raw->part = SPORE_NEW_ARRAY(guint32, head.triangle_count);
   if (!raw->part) return fail_memory(place, error);
   if (head.part_count > head.triangle_count || size != sizeof head + part_bytes + vertex_bytes + triangle_bytes ||
       !read_parts(bytes + sizeof head, &head, raw))
@@ -124,11 +125,11 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
           "install libassimp-dev and build SPORE again"),
         spore_mesh_format_names[format]);
   SporeImportRequest head = {format};
-  char *request = g_try_malloc(sizeof head + size);
+  char *request = spore_allocate(sizeof head + size, 1);
   if (!request) return fail_memory(place, error);
   memcpy(request, &head, sizeof head);
   memcpy(request + sizeof head, content, size);
-  GBytes *bytes = g_bytes_new_take(request, sizeof head + size);
+  GBytes *bytes = g_bytes_new_with_free_func(request, sizeof head + size, spore_free, request);
   const SporeHelperLimits limits = import_limits(size);
   GBytes *answer = spore_helper_run("spore-import", place, bytes, &limits, progress, error);
   g_bytes_unref(bytes);
@@ -145,14 +146,15 @@ static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
   if (!spore_triangle_mesh_report(mesh, &report, error)) return false;
   if (report.boundary_edges + report.nonmanifold_edges > 0) return true;
   gsize size = 3 * mesh->triangle_count * sizeof *mesh->triangles;
-  g_autofree uint32_t *before = g_try_malloc(size);
+  uint32_t *before = spore_allocate(size, 1);
   if (!before)
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, "%s",
                            _("there is not enough memory to import it; close other programs"));
   memcpy(before, mesh->triangles, size);
-  if (!spore_triangle_mesh_orient(mesh, error)) return false;
-  mesh->reoriented = memcmp(before, mesh->triangles, size) != 0;
-  return true;
+  bool done = spore_triangle_mesh_orient(mesh, error);
+  mesh->reoriented = done && memcmp(before, mesh->triangles, size) != 0;
+  spore_free(before);
+  return done;
 }
 
 /* tags: one a triangle, or NULL. */
@@ -184,9 +186,10 @@ static gboolean decode(const char *place, const char *file, const void *content,
                        Raw *raw, const SporeProgress *progress, GError **error) {
   g_assert(unit >= 0 && spore_length_units[unit] && frame >= 0 && frame < 3);
   const char *text = content;
-  g_autofree char *held = NULL;
+  char *held = NULL;
   if (!spore_mesh_text(&text, &size, &held)) return fail_memory(place, error);
   gboolean done = decode_plain(place, file, text, size, raw, progress, error);
+  spore_free(held);
   if (done) apply_unit_and_frame(&raw->mesh, unit, frame);
   return done;
 }
@@ -206,8 +209,8 @@ gboolean spore_mesh_decode_tagged(const char *place, const char *file, const voi
   gboolean done =
       decode(place, file, content, size, unit, frame, &raw, progress, error) && tidy(place, &raw.mesh, raw.part, error);
   *mesh = done ? raw.mesh : (SporeTriangleMesh){0};
-  *names = done && raw.parts ? names_of(&raw) : NULL;
-  *parts = done ? g_steal_pointer(&raw.part) : NULL;
+  if (names) *names = done && raw.parts ? names_of(&raw) : NULL;
+  if (parts) *parts = done ? g_steal_pointer(&raw.part) : NULL;
   if (done) raw.mesh = (SporeTriangleMesh){0};
   clear_raw(&raw);
   return done;
@@ -215,12 +218,10 @@ gboolean spore_mesh_decode_tagged(const char *place, const char *file, const voi
 
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
-  g_autofree guint32 *parts = NULL;
-  g_auto(GStrv) names = NULL;
   return spore_mesh_decode_tagged(place  ? place
                                   : file ? file
                                          : "",
-                                  file, content, size, unit, frame, mesh, &parts, &names, progress, error);
+                                  file, content, size, unit, frame, mesh, NULL, NULL, progress, error);
 }
 
 void spore_mesh_part_free(SporeMeshPart *part) {

@@ -23,9 +23,9 @@ extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
 
-/* The same, and of each triangle the part of the file that it came from. *parts: triangle_count numbers, g_free;
- * *names: of each part, "" where it has none, g_strfreev. Both NULL where the file has no parts. Of triangles that two
- * parts have alike, the first part has the one that is kept. */
+/* The same, and of each triangle the part of the file that it came from. *parts: triangle_count numbers, spore_free;
+ * *names: of each part, "" where it has none, g_strfreev. Both NULL where the file has no parts; a place
+ * for them may be NULL. Of triangles that two parts have alike, the first part has the one that is kept. */
 gboolean spore_mesh_decode_tagged(const char *place, const char *file, const void *content, gsize size, int unit,
                                   int frame, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
                                   const SporeProgress *progress, GError **error);

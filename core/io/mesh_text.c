@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "core/base/memory.h"
+
 static guint unit_at(const guchar *bytes, gsize i, gboolean big) {
   return big ? (guint)bytes[i] << 8 | bytes[i + 1] : (guint)bytes[i + 1] << 8 | bytes[i];
 }
@@ -20,7 +22,7 @@ static gunichar next_character(const guchar *bytes, gsize size, gsize *i, gboole
 
 /* A unit of two bytes takes three bytes at most. */
 static char *from_utf16(const guchar *bytes, gsize size, gboolean big, gsize *length) {
-  char *text = g_try_malloc(size / 2 * 3 + 1);
+  char *text = SPORE_NEW_ARRAY(char, size / 2 * 3 + 1);
   *length = 0;
   for (gsize i = 2; text && i + 1 < size;)
     *length += (gsize)g_unichar_to_utf8(next_character(bytes, size, &i, big), text + *length);

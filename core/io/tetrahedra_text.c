@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scanner.h"
 
@@ -75,11 +76,10 @@ static gboolean read_medit(SporeScanner *scanner, MeditContent *content, GError 
   return TRUE;
 }
 
-/* Numbers the vertices that tetrahedra use from 0, in their order. Returns how many. */
+/* Numbers the vertices that tetrahedra use from 0, in their order; number is all 0 before. Returns how many. */
 static gsize number_used(const MeditContent *content, guint32 *number) {
   gsize total = content->vertices->len / 3, used = 0;
   const guint32 *corners = (const guint32 *)(const void *)content->tetrahedra->data;
-  memset(number, 0, total * sizeof *number);
   for (gsize i = 0; i < content->tetrahedra->len; i++) number[corners[i]] = 1;
   for (gsize i = 0; i < total; i++) number[i] = number[i] ? (guint32)used++ : G_MAXUINT32;
   return used;
@@ -99,7 +99,7 @@ static void turn_positive(const double *vertices, guint32 *corner) {
 
 static gboolean keep_tetrahedra(const char *place, const MeditContent *content, SporeTetrahedralMesh *mesh,
                                 GError **error) {
-  guint32 *number = g_try_new(guint32, content->vertices->len / 3 + 1);
+  guint32 *number = SPORE_NEW_ARRAY(guint32, content->vertices->len / 3);
   if (!number)
     return spore_error_raise(error, SPORE_ERROR_MEMORY, place,
                              _("there is not enough memory to import it; close other programs"));
@@ -116,7 +116,7 @@ static gboolean keep_tetrahedra(const char *place, const MeditContent *content, 
     done = spore_tetrahedral_mesh_validate(mesh, &failure);
     if (!done) spore_tetrahedral_mesh_clear(mesh);
   }
-  g_free(number);
+  spore_free(number);
   if (done) return TRUE;
   spore_error_at(&failure, place);
   return spore_error_propagate(&failure, error);

@@ -23,13 +23,15 @@ static gboolean add_track(SporeCompiler *compiler, SporeTrack *merged, const Spo
   const char *file = spore_object_text(device, "file");
   g_autoptr(GError) unreadable = NULL;
   g_autoptr(GBytes) content = file ? spore_document_read_asset(compiler->document, file, &unreadable) : NULL;
-  if (!content)
-    return spore_compiler_refuse(compiler, device, "%s",
-                                 unreadable ? unreadable->message : _("the track has no file; set it"));
+  SporeError fault = SPORE_ERROR_INIT;
+  if (unreadable) {
+    spore_error_set(&fault, (SporeErrorCode)unreadable->code, NULL, "%s", unreadable->message);
+    return spore_compiler_pass_on(compiler, device, &fault);
+  }
+  if (!content) return spore_compiler_refuse(compiler, device, _("the track has no file; set it"));
   gsize size;
   const char *text = g_bytes_get_data(content, &size);
   SporeTrack track = {0};
-  SporeError fault = SPORE_ERROR_INIT;
   gboolean done;
   if (!spore_track_parse(&track, file, text, size, &fault)) {
     done = spore_compiler_pass_on(compiler, device, &fault);

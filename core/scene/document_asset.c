@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "core/base/hash.h"
+#include "core/base/memory.h"
 #include "core/scene/beneath.h"
 #include "core/scene/document_private.h"
 
@@ -130,18 +131,19 @@ static GBytes *read_all(int descriptor, const char *place, const char *file, GEr
   struct stat status;
   if (fstat(descriptor, &status) != 0) return say_why(errno, place, file, error), NULL;
   gsize capacity = (gsize)status.st_size + 1, size = 0;
-  guint8 *content = g_try_malloc(capacity);
+  guint8 *content = spore_allocate(capacity, 1);
   if (!content) return say_why(ENOMEM, place, file, error), NULL;
   for (;;) {
     ssize_t got = read(descriptor, content + size, capacity - size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
       say_why(errno, place, file, error);
-      g_free(content);
+      spore_free(content);
       return NULL;
     }
     size += (gsize)got;
-    if (got == 0 || size == capacity) return g_bytes_new_take(content, MIN(size, (gsize)status.st_size));
+    if (got == 0 || size == capacity)
+      return g_bytes_new_with_free_func(content, MIN(size, (gsize)status.st_size), spore_free, content);
   }
 }
 

@@ -13,8 +13,6 @@
 #include "tests/mesh/shapes.h"
 #include "tests/ways.h"
 
-typedef bool Work(GError **error);
-
 /* Made before anything fails. */
 static SporeTriangleMesh ball, coarse, box, capsule;
 
@@ -113,34 +111,16 @@ static bool label_cells(GError **to) {
   return fine;
 }
 
-/* most: failures; of what takes long, as many evenly. */
+/* most: as ways_fail_each says; what takes long fails at a few. */
 typedef struct Part {
   const char *path;
-  Work *work;
+  WaysWork *work;
   guint most;
 } Part;
 
 static void fail_each(gconstpointer data) {
   const Part *part = data;
-  GError *error = NULL;
-  guint count, refused = 0;
-  ways_begin();
-  bool whole = part->work(&error);
-  g_assert_no_error(error);
-  g_assert_true(whole);
-  g_autoptr(GArray) failing = ways_end(&count);
-  guint stride = MAX(failing->len / part->most, 1);
-  for (guint i = 0; i < failing->len; i += stride) {
-    spore_allocation_fail_at(g_array_index(failing, guint64, i));
-    bool fine = part->work(&error);
-    spore_allocation_fail_at(0);
-    if (!fine) g_assert_error(error, SPORE_ERROR, SPORE_ERROR_MEMORY);
-    refused += !fine;
-    g_clear_error(&error);
-  }
-  g_test_message("%u ways to an allocation: refused %u times of %u", count, refused,
-                 (failing->len + stride - 1) / stride);
-  g_assert_cmpuint(refused, >, 0);
+  ways_fail_each(part->work, part->most);
 }
 
 int main(int argc, char **argv) {

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/memory.h"
 #include "core/io/mesh_import.h"
 #include "core/mesh/common.h"
 #include "tests/io/mesh_files.h"
@@ -228,7 +229,7 @@ static void test_tree(void) {
 static void test_tagged(void) {
   GError *error = NULL;
   g_autofree char *text = tree_text();
-  g_autofree guint32 *parts = NULL;
+  guint32 *parts = NULL;
   g_auto(GStrv) names = NULL;
   SporeTriangleMesh mesh;
   g_assert_true(spore_mesh_decode_tagged("tree.gltf", "tree.gltf", text, strlen(text), 0, 0, &mesh, &parts, &names,
@@ -239,10 +240,11 @@ static void test_tagged(void) {
   g_assert_cmpstr(names[1], ==, "vein");
   g_assert_cmpuint(mesh.triangle_count, ==, 4);
   for (gsize t = 0; t < 4; t++) g_assert_cmpuint(parts[t], ==, 0);
+  spore_free(parts);
   spore_triangle_mesh_clear(&mesh);
 
   const char *off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-  g_autofree guint32 *none = NULL;
+  guint32 *none;
   char **no_names;
   g_assert_true(
       spore_mesh_decode_tagged("a.off", "a.off", off, strlen(off), 0, 0, &mesh, &none, &no_names, NULL, &error));

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""layers.py [ROOT]: checks that every include follows the direction of the architecture, and that the kernel needs libc
-alone. Prints each breach; the exit status is 1 where there is one. circles.py applies the same rules to calls."""
+"""layers.py [ROOT]: checks that every include follows the direction of the architecture, that the kernel needs libc
+alone, and that memory which may be refused is asked for by one door. Prints each breach; the exit status is 1 where
+there is one. circles.py applies the same rules to calls."""
 import pathlib
 import re
 import sys
@@ -39,6 +40,8 @@ UMBRELLA = "models/spore.h"
 FOLDERS = {"core": set(), "models": {"core"}, "ui": {"core", "models"}, "app": {"core", "models", "ui"}}
 # Headers of libraries that the kernel does not know.
 FOREIGN = re.compile(r"glib|gio|gtk|libxml|json-glib|epoxy|png|assimp|CGAL")
+# Memory that GLib may refuse to give.
+ASKS_GLIB = re.compile(r"\bg_try_(new|malloc|realloc|renew)")
 
 SUFFIXES = {".c", ".h", ".cpp", ".hpp"}
 
@@ -120,7 +123,7 @@ def sources(root):
 
 
 def faults(root, path):
-    """What is wrong with the includes of one file, a line each."""
+    """What is wrong with one file, a line each."""
     if misplaced(path):
         yield f"{path}: {misplaced(path)}"
     for number, line in enumerate((root / path).read_text().splitlines(), 1):
@@ -128,6 +131,8 @@ def faults(root, path):
         reason = match and include_breach(path, match.group(2), match.group(1) == "<")
         if reason:
             yield f"{path}:{number}: includes {match.group(2)}: {reason}"
+        if ASKS_GLIB.search(line):
+            yield f"{path}:{number}: memory that may be refused comes from spore_allocate, which tests can make fail"
 
 
 def main(root=ROOT):

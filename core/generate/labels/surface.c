@@ -2,6 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
+#include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/generate/labels/private.h"
 #include "core/mesh/sort.h"
@@ -121,13 +122,12 @@ static bool march(Marching *m, const SporeProgress *progress, SporeError *error)
   return true;
 }
 
-/* Gives each distinct key a vertex. */
-static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *error) {
+/* Gives each distinct key a vertex. order: room for a number of each key. */
+static bool build_in_order(const Marching *m, uint32_t *order, SporeTriangleMesh *surface, SporeError *error) {
   size_t corners = m->keys->len, vertices = 0;
   uint64_t *keys = (uint64_t *)(void *)m->keys->data;
-  g_autofree uint32_t *order = g_try_new(uint32_t, MAX(corners, 1));
-  for (size_t i = 0; order && i < corners; i++) order[i] = (uint32_t)i;
-  if (!order || !spore_sort_keys(keys, order, corners)) return spore_generate_no_memory(error);
+  for (size_t i = 0; i < corners; i++) order[i] = (uint32_t)i;
+  if (!spore_sort_keys(keys, order, corners)) return spore_generate_no_memory(error);
   for (size_t i = 0; i < corners; i++) vertices += i == 0 || keys[i] != keys[i - 1];
   if (!spore_triangle_mesh_allocate(surface, vertices, corners / 3, error)) return false;
   vertices = 0;
@@ -141,6 +141,13 @@ static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *err
     surface->triangles[order[i]] = (uint32_t)(vertices - 1);
   }
   return true;
+}
+
+static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *error) {
+  uint32_t *order = SPORE_NEW_ARRAY(uint32_t, m->keys->len);
+  bool done = order ? build_in_order(m, order, surface, error) : spore_generate_no_memory(error);
+  spore_free(order);
+  return done;
 }
 
 /* Whether the index axes are left-handed in space; every triangle is then turned over. */
