@@ -167,8 +167,9 @@ typedef struct SporeModelAdapt {
 /* Where a model's elements are met one after the other: so many seconds after the step began. */
 typedef struct SporeSweep {
   double h;
-  const double *before; /* 3 a node: where it was when the step began */
-  double *now;          /* 4 a node: where it is, and one over its mass, 0 of a node that is held */
+  const double *before;      /* 3 a node: where it was when the step began */
+  double *now;               /* 4 a node: where it is, and one over its mass, 0 of a node that is held */
+  const SporeCancel *cancel; /* where it says so, what comes out is of no use; NULL: nothing does */
 } SporeSweep;
 
 /* What a nodal model can do whose elements can be met one after the other, each implicitly by itself. Slots are
@@ -176,8 +177,8 @@ typedef struct SporeSweep {
 typedef struct SporeModelSweep {
   /* Whether this model can. NULL: all of the type can. */
   bool (*can)(const SporeModel *model);
-  /* Puts the elements in order, when a body is to move so. False: no memory. */
-  bool (*prepare)(SporeModel *model);
+  /* Puts the elements in order, when a body is to move so. False: no memory, or cancelled. */
+  bool (*prepare)(SporeModel *model, const SporeCancel *cancel);
   /* The least part of a step after which its elements can be met so that no step is too large: more where meeting one
    * undoes more of what meeting others did. */
   double (*part)(const SporeModel *model);

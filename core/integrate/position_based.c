@@ -29,12 +29,13 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
 
 const SporeIntegrator spore_position_based = {
     .name = "position_based",
-    .doc = N_(
-        "First order, one sweep over the elements of a body a step, each, or each row of a net's springs, met "
-        "implicitly by itself: the quickest "
-        "to a rough answer where the body is stiff, and no step is too large for it. For nets and linear neo-Hookean "
-        "tetrahedra, and their contacts with each other, with tools and with what does not move; all else moves "
-        "as by symplectic_euler, or by implicit_euler in contacts and links that a step does not resolve."),
+    .doc =
+        N_("First order, one sweep over the elements of a body a step, each, or each row of a net's springs, met "
+           "implicitly by itself, or all at once by a matrix that is factorised beforehand: the quickest to a rough "
+           "answer where the body is stiff, and no step is too large for it. For nets, linear neo-Hookean tetrahedra, "
+           "and linear corotational ones without stiffness_damping, and their contacts with each other, with "
+           "tools and with what does not move; all else moves "
+           "as by symplectic_euler, or by implicit_euler in contacts and links that a step does not resolve."),
     .swings = true,
     .sweeps = true,
     .stable_square = 4,

@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/math/vector.h"
 #include "core/sim/world_private.h"
 #include "core/sim/solve/step_limit.h"
 
@@ -280,17 +281,44 @@ static SporeWorld *give_up(SporeWorld *world) {
   return NULL;
 }
 
+static SporeWorld *give_up_cancelled(SporeWorld *world, SporeError *error) {
+  spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  return give_up(world);
+}
+
+typedef struct Preparation {
+  const SporeCancel *cancel;
+  bool made;
+} Preparation;
+
 static void prepare_sweep(SporeModel *model, void *user) {
-  bool *made = user;
-  if (model->type->sweep) *made = *made && model->type->sweep->prepare(model);
+  Preparation *preparation = user;
+  if (model->type->sweep)
+    preparation->made = preparation->made && model->type->sweep->prepare(model, preparation->cancel);
 }
 
 static bool prepare_sweeps(const SporeWorld *world) {
-  bool made = true;
+  Preparation preparation = {world->cancel, true};
   for (size_t b = 0; b < world->body_count; b++)
     if (world->bodies[b].role == SPORE_PASSIVE && spore_integrator(world->bodies[b].method.chosen)->sweeps)
-      spore_body_each_model(&world->bodies[b], prepare_sweep, &made);
-  return made;
+      spore_body_each_model(&world->bodies[b], prepare_sweep, &preparation);
+  return preparation.made;
+}
+
+/* Sweeps each body once where it begins and lets go what comes out, so that what a sweep keeps for a step of its size
+ * is there before the first one. */
+static void rehearse_sweeps(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!spore_body_moves(body) || !spore_body_sweeps(body)) continue;
+    const SporeModelSweep *sweep = body->model->type->sweep;
+    const double *q = world->state.q + body->q_offset, *still = world->state.v + body->v_offset;
+    double *rows = world->solve.scratch, h = world->solver.time_step / (double)body->method.substeps;
+    SporeRowsStep at = {sweep->part(body->model), h, q, still, NULL, (double *)still};
+    spore_rows_predict(body->block_count, rows, &at, body->model->block_mass);
+    for (size_t k = 0; k < body->held.count; k++) rows[4 * (size_t)body->held.blocks[k] + 3] = 0;
+    sweep->sweep(body->model, &(SporeSweep){.h = at.part * h, .before = q, .now = rows, .cancel = world->cancel});
+  }
 }
 
 static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
@@ -321,10 +349,7 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       spore_world_create_factors(world, error) && go_on(world) && spore_world_create_lod(world, description, error) &&
       spore_lod_create_automation(world, description, error) && allocate_vectors(world, error) && go_on(world) &&
       check_steps(world, error);
-  if (spore_cancel_asked(world->cancel)) {
-    spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    return give_up(world);
-  }
+  if (spore_cancel_asked(world->cancel)) return give_up_cancelled(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
@@ -334,5 +359,6 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   spore_world_create_sleep(world);
   spore_world_make_plan(world);
   spore_world_reset(world);
-  return world;
+  rehearse_sweeps(world);
+  return spore_cancel_asked(world->cancel) ? give_up_cancelled(world, error) : world;
 }

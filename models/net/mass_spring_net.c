@@ -243,7 +243,7 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
   return count;
 }
 
-static bool prepare_sweep(SporeModel *model) {
+static bool prepare_sweep(SporeModel *model, const SporeCancel *cancel) {
   Net *net = (Net *)model;
   bool ordered = true;
   for (int kind = 0; kind < KINDS && ordered; kind++)

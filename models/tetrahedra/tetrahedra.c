@@ -13,6 +13,7 @@
 #include "models/tetrahedra/cut.h"
 #include "models/tetrahedra/elements.h"
 #include "models/tetrahedra/heat.h"
+#include "models/tetrahedra/prefactored.h"
 #include "models/tetrahedra/sweep.h"
 #include "models/tetrahedra/map.h"
 
@@ -46,7 +47,8 @@ typedef struct Body {
   bool locks;
   SporeTetrahedraHeat heated;
   SporeTetrahedraCut cut;
-  SporeTetrahedraSweep sweep; /* empty where none was asked for */
+  SporeTetrahedraSweep sweep; /* empty where none was asked for, as is: */
+  SporePrefactored prefactored;
   double density, cut_reserve, spare_mass;
 } Body;
 
@@ -83,6 +85,7 @@ static void destroy(SporeModel *model) {
   spore_tetrahedra_heat_clear(&body->heated);
   spore_tetrahedra_cut_clear(&body->cut);
   spore_tetrahedra_sweep_clear(&body->sweep);
+  spore_prefactored_clear(&body->prefactored);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -238,10 +241,16 @@ static bool prepare_heat(SporeModel *model) {
   return body->heated.whole || spore_tetrahedra_heat_create(&body->heated, &body->tetrahedra);
 }
 
+/* What is kept of the elements for sweeps is no longer right. */
+static void change(Body *body) {
+  body->sweep.stale = true;
+  spore_prefactored_forget(&body->prefactored);
+}
+
 static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
   assert(((const Body *)model)->heated.whole);
   Body *body = (Body *)model;
-  body->sweep.stale = true;
+  change(body);
   return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
 }
 
@@ -291,7 +300,7 @@ static size_t split(SporeModel *model, double *q, double *v, const uint32_t **fr
   Body *body = (Body *)model;
   size_t made = spore_tetrahedra_cut_part(&body->cut, &body->tetrahedra, model->block_mass, q, v);
   model->spare_count -= made;
-  body->sweep.stale = true;
+  change(body);
   *from = body->cut.from + (body->cut.made - made);
   return made;
 }
@@ -305,7 +314,7 @@ static const uint32_t *corners(const SporeModel *model, size_t *count) {
 /* Spares have next to no mass again. */
 static void mend(SporeModel *model) {
   Body *body = (Body *)model;
-  body->sweep.stale = true;
+  change(body);
   spore_tetrahedra_cool(&body->tetrahedra, &body->heated);
   for (size_t i = 0; i < body->cut.made; i++) model->block_mass[body->nodes.count + i] = body->spare_mass;
   model->spare_count += body->cut.made;
@@ -321,7 +330,7 @@ static const char *notice(const SporeModel *model, const double *q) {
 /* A quadratic element has too many nodes. */
 static bool can_sweep(const SporeModel *model) { return !((const Body *)model)->tetrahedra.middles; }
 
-static bool prepare_sweep(SporeModel *model) {
+static bool prepare_sweep(SporeModel *model, const SporeCancel *cancel) {
   Body *body = (Body *)model;
   return body->tetrahedra.middles || spore_tetrahedra_sweep_create(&body->sweep, &body->tetrahedra, model->node_count);
 }
@@ -343,6 +352,36 @@ static void sweep(SporeModel *model, const SporeSweep *at) {
 
 static double sweep_part(const SporeModel *model) { return SPORE_TETRAHEDRA_SWEEP_PART; }
 
+static bool prepare_prefactored(SporeModel *model, const SporeCancel *cancel) {
+  Body *body = (Body *)model;
+  SporeBlockMatrix matrix;
+  if (body->tetrahedra.middles || body->prefactored.pattern.count > 0) return true;
+  return spore_model_matrix_create(model, &matrix) && spore_prefactored_create(&body->prefactored, &matrix, cancel);
+}
+
+/* The matrix that stays says nothing of how far viscosity is from it in turned elements: in steps much longer than
+ * stiffness_damping such a body would be thrown about. */
+static bool can_move_prefactored(const SporeModel *model) {
+  return can_sweep(model) && ((const Body *)model)->elasticity.viscosity == 0;
+}
+
+static double prefactored_part(const SporeModel *model) { return SPORE_PREFACTORED_PART; }
+
+static void move_prefactored(SporeModel *model, const SporeSweep *at) {
+  assert(model->type == &spore_corotational_tetrahedra);
+  Body *body = (Body *)model;
+  SporePrefactored *prefactored = &body->prefactored;
+  const SporePrefactor *factor = spore_prefactored_find(prefactored, &body->tetrahedra, body->elasticity, at);
+  damp_sweep(at, model->node_count, body->mass_damping);
+  if (!factor) return; /* that is said where the step is verified */
+  spore_prefactored_load(prefactored, at);
+  Loop loop = {.body = body, .q = prefactored->q, .shape = prefactored->q, .v = prefactored->v, .f = prefactored->f};
+  run(&loop, 10, add_slab_forces);
+  spore_prefactored_move(prefactored, factor, at);
+}
+
+static const SporeModelSweep prefactored_moving = {
+    .can = can_move_prefactored, .prepare = prepare_prefactored, .part = prefactored_part, .sweep = move_prefactored};
 static const SporeModelSweep sweeping = {
     .can = can_sweep, .prepare = prepare_sweep, .part = sweep_part, .sweep = sweep};
 static const SporeModelCut cutting = {.reserve = reserve, .cut = cut, .split = split, .corners = corners};
@@ -383,6 +422,7 @@ const SporeModelType spore_corotational_tetrahedra = {
               "pushed through; a heap of elements inside out can stay caught. With few linear elements across or a "
               "Poisson's ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a fifth."),
     .create = create_corotational,
+    .sweep = &prefactored_moving,
     SLOTS,
 };
 

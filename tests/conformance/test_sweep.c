@@ -5,11 +5,20 @@
 
 static gboolean applies(const SporeModelType *type) { return type->sweep != NULL; }
 
-/* The model, or NULL where this one cannot. */
+static void make_elastic(const SporeModelType *type, SporeModel *model, const void *fields) {
+  int at = spore_parameter_find(&type->parameters, "stiffness_damping");
+  g_assert_cmpint(at, >=, 0);
+  g_autofree char *elastic = g_memdup2(fields, type->parameters.size);
+  spore_parameter_store(&type->parameters.parameters[at], &(SporeValue){.type = SPORE_REAL}, elastic);
+  g_assert_true(type->retune(model, elastic, NULL));
+}
+
+/* The model, without viscosity where that is all that hinders, or NULL where this one cannot. */
 static SporeModel *sweeping_model(const Specimen *specimen) {
   SporeModel *model = specimen_model(specimen);
+  if (!spore_model_sweeps(model)) make_elastic(specimen->type, model, specimen->fields);
   if (spore_model_sweeps(model)) {
-    g_assert_true(model->type->sweep->prepare(model));
+    g_assert_true(model->type->sweep->prepare(model, NULL));
     return model;
   }
   model->type->destroy(model);

@@ -57,7 +57,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   tangent(model, &at, matrix);
 }
 
-static bool prepare_sweep(SporeModel *model) {
+static bool prepare_sweep(SporeModel *model, const SporeCancel *cancel) {
   const Chain *chain = (const Chain *)model;
   bool ordered = true;
   for (size_t i = 0; i < chain->count; i++)

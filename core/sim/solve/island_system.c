@@ -86,7 +86,8 @@ static void sweep(void *data, double h, const double *q0, const double *v0, doub
     if (!now) continue;
     spore_rows_predict(body->block_count, now, &step, body->model->block_mass);
     for (size_t k = 0; k < body->held.count; k++) now[4 * (size_t)body->held.blocks[k] + 3] = 0;
-    body->model->type->sweep->sweep(body->model, &(SporeSweep){.h = part * h, .before = step.x0, .now = now});
+    body->model->type->sweep->sweep(
+        body->model, &(SporeSweep){.h = part * h, .before = step.x0, .now = now, .cancel = system->world->cancel});
   }
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;

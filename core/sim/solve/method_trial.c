@@ -97,7 +97,7 @@ static bool allocate(Trial *trial) {
   }
   trial->scratch = spore_allocate(n, scratch * sizeof(double));
   const SporeModelSweep *sweep = trial->integrator->sweeps ? trial->body->model->type->sweep : NULL;
-  if (sweep && !sweep->prepare(trial->body->model)) return false;
+  if (sweep && !sweep->prepare(trial->body->model, trial->world->cancel)) return false;
   return trial->q[0] && trial->q[1] && trial->v[0] && trial->v[1] && trial->scratch;
 }
 
