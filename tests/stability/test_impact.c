@@ -370,6 +370,96 @@ static void case_41_nothing_passes(void) {
       }
 }
 
+/* Things that are thrown at a wall that nothing moves; they come along -y, their lowest sphere at START. */
+
+static void throw_passive(Rig *rig, SporeModel *model, const SporeSphereSet *spheres, SporeVec3 from, double speed) {
+  SporeBodyDescription *body = rig_passive(rig, "thrown", model, spheres);
+  body->pose.position = from;
+  body->velocity = spore_vec3(0, -speed, 0);
+}
+
+static void throw_net(Rig *rig, double speed) {
+  SporeTriangleMesh sheet;
+  shape_level_sheet(&sheet, 9, 9, 0.005);
+  const SporeSphereSet *spheres = rig_spheres(rig, sheet.vertices, sheet.vertex_count, 0.003);
+  throw_passive(rig, rig_surface_model(&spore_mass_spring_net, &sheet, NULL), spheres, spore_vec3(0.001, START, 0),
+                speed);
+}
+
+static void throw_block(Rig *rig, double speed) {
+  SporeTetrahedralMesh block;
+  shape_block(&block, 3, 3, 3, spore_vec3(0.03, 0.03, 0.03));
+  const SporeSphereSet *spheres = rig_spheres(rig, block.vertices, block.vertex_count, 0.004);
+  throw_passive(rig, rig_tetrahedra_model(&block, NULL), spheres, spore_vec3(-0.014, START, -0.016), speed);
+}
+
+static void throw_balls(Rig *rig, double speed) {
+  for (int i = 0; i < 3; i++)
+    throw_ball(rig, (const char *[]){"thrown", "second", "third"}[i], spore_vec3(0.001 * i, START + 2.2 * BALL * i, 0),
+               spore_vec3(0, -speed, 0));
+}
+
+static void throw_linked(Rig *rig, double speed) {
+  throw_balls(rig, speed);
+  for (uint32_t i = 0; i < 2; i++)
+    rig_link(rig, i ? "upper" : "lower", &spore_link_ball, i + 1, i + 2, spore_vec3(0, START + 2.2 * BALL * i, 0));
+}
+
+static const struct {
+  const char *name;
+  void (*throw)(Rig *rig, double speed);
+} thrown[] = {
+    {"a net", throw_net}, {"a block", throw_block}, {"three balls", throw_balls}, {"linked balls", throw_linked}};
+
+/* Spheres that physics moves and that have come through the wall. */
+static unsigned count_through(const SporeWorld *world) {
+  const SporeSpheres *spheres = spore_world_spheres(world);
+  unsigned count = 0;
+  for (size_t i = 0; i < spheres->count; i++) count += spheres->body[i] > 0 && spheres->centre[3 * i + 1] < -WALL;
+  return count;
+}
+
+/* Whether a message names a body that was thrown, its speed, and the stiffness that holds it. */
+static gboolean says_what_it_takes(const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  for (uint64_t i = 0; i < MIN(monitor->message_count, SPORE_MONITOR_MESSAGES); i++) {
+    const char *text = monitor->messages[i].text;
+    gboolean named = FALSE;
+    for (uint32_t body = 1; body < spore_world_body_count(world); body++)
+      named |= g_str_has_prefix(text, spore_world_body_name(world, body));
+    if (named && strstr(text, " m/s") && strstr(text, "stiffness of")) return TRUE;
+  }
+  return FALSE;
+}
+
+/* Case 41 of what is not followed in parts of the step: tissue, several balls, linked ones. What a wall does not hold
+ * is said, and far above the speed that it stops, the body, its speed and the stiffness that it takes. */
+static void case_41_thrown(void) {
+  static const double steps[] = {1e-4, 1e-3, 4e-3}, speeds[] = {0.5, 2, 10, 100, 1000};
+  for (unsigned t = 0; t < G_N_ELEMENTS(thrown); t++)
+    for (unsigned h = 0; h < G_N_ELEMENTS(steps); h++)
+      for (unsigned s = 0; s < G_N_ELEMENTS(speeds); s++) {
+        Rig *rig = rig_of(SPORE_INTEGRATOR_IMPLICIT_EULER, steps[h]);
+        add_wall(rig);
+        thrown[t].throw(rig, speeds[s]);
+        SporeWorld *world = rig_build(rig);
+        SporeStoppingSpeed stopping;
+        g_assert_true(spore_world_stopping_speed(world, 1, &stopping));
+        double worst;
+        rig_run(world, (unsigned)ceil(2 * START / speeds[s] / steps[h]) + 3);
+        unsigned through = count_through(world);
+        uint64_t said = not_held(world, &worst);
+        g_test_message("case 41: %s, %g ms, %g m/s (stopped: %.3g): %u spheres through, said %d (%.3g m/s): %s",
+                       thrown[t].name, steps[h] * 1e3, speeds[s], stopping.stops, through, said > 0, worst,
+                       said > 0 ? rig_last_message(world) : "");
+        if (through > 0 || speeds[s] > 5 * stopping.stops) {
+          g_assert_cmpuint(said, >, 0);
+          g_assert_true(says_what_it_takes(world));
+        }
+        rig_free(rig);
+      }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/stability/case-40/bounce", case_40_bounce);
@@ -381,5 +471,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/case-41/two", case_41_two);
   g_test_add_func("/stability/case-41/above", case_41_above);
   g_test_add_func("/stability/case-41/nothing-passes", case_41_nothing_passes);
+  g_test_add_func("/stability/case-41/thrown", case_41_thrown);
   return g_test_run();
 }
