@@ -95,7 +95,7 @@ def settings(scene, known, random_):
     if random_.random() < 0.5:
         arguments += ["--integrator", random_.choice(INTEGRATORS)]
     if random_.random() < 0.5:
-        arguments += ["--dt", repr(10 ** random_.uniform(-5, -1.3))]
+        arguments += ["--dt", repr(10 ** random_.uniform(-5, -1))]
     return arguments
 
 
