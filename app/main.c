@@ -31,6 +31,7 @@ static const Command commands[] = {
     {"import", spore_command_import, N_("Make a scene from organ meshes")},
     {"edit", spore_command_edit, N_("Change a scene: properties, what holds an organ, a probe")},
     {"advise", spore_command_advise, N_("Say what a scene simulates that nobody would miss")},
+    {"sweep", spore_command_sweep, N_("Run many scenes and settings, and put the results together")},
     {"centreline", spore_command_centreline, N_("Find the middle line of a tubular organ")},
     {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
     {"spline", spore_command_spline, N_("Make a spline sheet of a patch of an organ between four corners")},

@@ -108,6 +108,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv);
 int spore_command_stability(SporeCli *cli, int argc, char **argv);
 int spore_command_spline(SporeCli *cli, int argc, char **argv);
 int spore_command_surface(SporeCli *cli, int argc, char **argv);
+int spore_command_sweep(SporeCli *cli, int argc, char **argv);
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv);
 
 #endif

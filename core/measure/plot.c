@@ -133,6 +133,18 @@ static void draw_ring(SporeTextBuffer *text, double x, double y) {
   spore_text_add(text, ")\"/>\n");
 }
 
+/* A bar with a dash at each end. What lies below a logarithmic axis is cut off. */
+static void draw_bar(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y, const SporePlotLine *line,
+                     size_t i) {
+  if (!line->low || !line->high || !(line->high[i] > line->low[i]) || !spore_plot_axis_shows(y, line->high[i])) return;
+  bool cut = !spore_plot_axis_shows(y, line->low[i]);
+  double at = spore_plot_axis_place(x, line->x[i]), top = spore_plot_axis_place(y, line->high[i]);
+  double bottom = cut ? y->from : spore_plot_axis_place(y, line->low[i]);
+  spore_svg_line(text, at, bottom, at, top, FRAME);
+  spore_svg_line(text, at - 4, top, at + 4, top, FRAME);
+  if (!cut) spore_svg_line(text, at - 4, bottom, at + 4, bottom, FRAME);
+}
+
 static void draw_line(SporeTextBuffer *text, const SporePlotAxis *x, const SporePlotAxis *y, const SporePlotLine *line,
                       size_t number) {
   bool first = true;
@@ -154,6 +166,7 @@ static void draw_line(SporeTextBuffer *text, const SporePlotAxis *x, const Spore
   }
   for (size_t i = 0; (line->scattered || line->count <= POINTS_MOST) && i < line->count; i++) {
     if (!spore_plot_axis_shows(x, line->x[i]) || !spore_plot_axis_shows(y, line->y[i])) continue;
+    draw_bar(text, x, y, line, i);
     double at_x = spore_plot_axis_place(x, line->x[i]), at_y = spore_plot_axis_place(y, line->y[i]);
     draw_point(text, at_x, at_y, 3.5, number, line->hollow && line->hollow[i]);
     if (line->ringed && line->ringed[i]) draw_ring(text, at_x, at_y);

@@ -16,6 +16,7 @@ typedef struct SporePlotLine {
   const double *x, *y;
   bool scattered;              /* points alone, not joined; lines of many points are drawn without them */
   const bool *hollow, *ringed; /* count: points drawn empty, and with a ring around; NULL: none */
+  const double *low, *high;    /* count: a bar from low to high at each point; NULL: none */
 } SporePlotLine;
 
 typedef struct SporePlotPanel {

@@ -46,12 +46,20 @@ size_t spore_plot_ticks(double low, double high, double tick[SPORE_PLOT_TICKS]) 
   return axis.ticks;
 }
 
+static void span(SporePlotAxis *axis, double value, double *low, double *high) {
+  if (!spore_plot_axis_shows(axis, value)) return;
+  *low = fmin(*low, value);
+  *high = fmax(*high, value);
+}
+
 bool spore_plot_axis_fit(SporePlotAxis *axis, const SporePlotPanel *panel, bool vertical) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t l = 0; l < panel->line_count; l++)
     for (size_t i = 0; i < panel->lines[l].count; i++) {
-      double value = (vertical ? panel->lines[l].y : panel->lines[l].x)[i];
-      if (spore_plot_axis_shows(axis, value)) low = fmin(low, value), high = fmax(high, value);
+      const SporePlotLine *line = &panel->lines[l];
+      span(axis, (vertical ? line->y : line->x)[i], &low, &high);
+      if (vertical && line->low && line->high)
+        span(axis, line->low[i], &low, &high), span(axis, line->high[i], &low, &high);
     }
   if (!(low <= high)) return false;
   if (axis->logarithmic) {

@@ -53,6 +53,30 @@ static void test_left_out(void) {
   spore_free(svg);
 }
 
+/* Bars stand from low to high, and the axis has room for them. */
+static void test_bars(void) {
+  const double x[] = {1, 2}, y[] = {10, 20}, low[] = {8, 20}, high[] = {40, 20};
+  SporePlotLine line = {"a", 2, x, y, true, .low = low, .high = high};
+  SporePlotPanel panel = {"x", "y", false, false, &line, 1, NULL, 0};
+  char *svg = spore_plot_svg("title", NULL, &panel, 1, NULL);
+  g_autoptr(GArray) c = centres(svg);
+  const double *p = (const double *)(gconstpointer)c->data;
+  double pixels = (p[1] - p[3]) / 10; /* of 1 */
+  gboolean found = FALSE;
+  guint upright = 0;
+  for (const char *at = strstr(svg, "<line x1=\""); at; at = strstr(at + 1, "<line x1=\"")) {
+    double x1 = g_ascii_strtod(at + 10, NULL), y1 = g_ascii_strtod(strstr(at, "y1=\"") + 4, NULL),
+           y2 = g_ascii_strtod(strstr(at, "y2=\"") + 4, NULL);
+    gboolean bar = fabs(x1 - p[0]) < 0.02 && strstr(at, "#444444") && strstr(at, "#444444") < strchr(at, '>');
+    found |= bar && fabs(y1 - p[1] - 2 * pixels) < 0.1 && fabs(y2 - p[1] + 30 * pixels) < 0.1;
+    upright += fabs(x1 - p[2]) < 0.02 && strstr(at, "#444444") && strstr(at, "#444444") < strchr(at, '>');
+    if (bar) g_assert_cmpfloat(y2, >, 70); /* below the title */
+  }
+  g_assert_true(found);
+  g_assert_cmpuint(upright, ==, 0); /* nothing spreads there */
+  spore_free(svg);
+}
+
 static void test_nothing(void) {
   const double x[] = {1}, y[] = {NAN};
   SporePlotLine line = {"a", 1, x, y, true};
@@ -132,6 +156,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/measure/plot/logarithmic", test_logarithmic);
   g_test_add_func("/measure/plot/left-out", test_left_out);
+  g_test_add_func("/measure/plot/bars", test_bars);
   g_test_add_func("/measure/plot/nothing", test_nothing);
   g_test_add_func("/measure/plot/black_and_white", test_black_and_white);
   g_test_add_func("/measure/plot/marks", test_marks);
