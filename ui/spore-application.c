@@ -33,7 +33,7 @@ static const struct {
     {"win.step", {"F6"}},
     {"win.reset", {"<Shift>F5"}},
     {"win.apply-generated", {"<Control>Return"}},
-    {"win.pick-ends", {"<Control>e"}},
+    {"win.pick-places", {"<Control>e"}},
     {"win.filter", {"<Control>f"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},

@@ -1,7 +1,6 @@
-/* Generators: starting them, the ends of a middle line, applying results and showing them. */
+/* Generators: starting them, places that are picked for them, applying results and showing them. */
 #include <glib/gi18n.h>
 
-#include "core/mesh/common.h"
 #include "core/scene/generated.h"
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
@@ -9,8 +8,7 @@
 #include "ui/spore-window-private.h"
 
 #define USUAL_LABEL_CELLS 5000
-#define LOOK_REST 4     /* time between pictures of running work, as a multiple of the time of a picture */
-#define MARK_PART 0.015 /* radius of the mark of a picked end, as a part of the organ's diagonal */
+#define LOOK_REST 4 /* time between pictures of running work, as a multiple of the time of a picture */
 
 static void show_candidate(SporeWindow *self);
 
@@ -147,29 +145,45 @@ static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter
   if (file) spore_window_preview_labels(self, file);
 }
 
-/* Ends picked by hand. */
+/* Places picked by hand. */
 
-static void change_pick_ends(GSimpleAction *action, GVariant *state, gpointer data) {
+static void set_picking(SporeWindow *self, gboolean picking) {
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(picking));
+}
+
+/* Those picked so far, else those that the options have. */
+static void show_places(SporeWindow *self) {
+  SporeViewportPlaces places = {0};
+  SporeObject *body = spore_generator_get_body(self->generator);
+  const SporeGenerateOptions *options = spore_generator_get_options(self->generator);
+  if (spore_window_is_picking(self)) places = self->picked;
+  else if (body && spore_generate_get_places(options, places.at)) places.count = spore_generate_place_count(options);
+  places.body = body ? spore_object_id(body) : 0;
+  spore_viewport_set_places(SPORE_VIEWPORT(self->viewport), &places);
+}
+
+static void change_pick_places(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
-  gboolean picking = g_variant_get_boolean(state) && spore_window_picks_ends(self);
+  gboolean picking = g_variant_get_boolean(state) && spore_window_picks_places(self);
   g_simple_action_set_state(action, g_variant_new_boolean(picking));
-  self->picked = 0;
+  self->picked = (SporeViewportPlaces){0};
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
+  show_places(self);
   show_candidate(self);
   spore_window_show_hint(self);
 }
 
-static void set_ends(SporeWindow *self, SporeVec3 first, SporeVec3 last) {
+/* places NULL: those that the generator finds. */
+static void set_places(SporeWindow *self, double places[SPORE_GENERATOR_PLACES][3]) {
   g_autoptr(GError) error = NULL;
   SporeGenerateOptions options = *spore_generator_get_options(self->generator);
-  spore_vec3_store(options.fields.curve.first_place, first);
-  spore_vec3_store(options.fields.curve.last_place, last);
+  spore_generate_set_places(&options, places);
   if (!spore_generator_preview(self->generator, spore_generator_get_body(self->generator), &options, &error))
     spore_window_failed(self, error);
 }
 
-static void act_automatic_ends(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  if (spore_window_picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
+static void act_automatic_places(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  if (spore_window_picks_places(data)) set_places(data, NULL);
 }
 
 static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
@@ -180,16 +194,35 @@ static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
     spore_window_complain(self, text);
     return;
   }
-  SporePose pose = spore_body_pose(body);
-  SporeVec3 in_body = spore_quat_rotate(spore_quat_conjugate(pose.orientation), spore_vec3_sub(*place, pose.position));
-  if (self->picked++ == 0) {
-    self->first_end = in_body;
-    show_candidate(self);
+  SporeViewportPlaces all = self->picked;
+  spore_vec3_store(all.at[all.count++], spore_pose_apply_inverse(spore_body_pose(body), *place));
+  self->picked = all;
+  if (all.count < spore_generate_place_count(spore_generator_get_options(self->generator))) {
+    show_places(self);
     spore_window_show_hint(self);
     return;
   }
-  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
-  set_ends(self, self->first_end, in_body);
+  set_picking(self, FALSE);
+  set_places(self, all.at);
+}
+
+static void places_moved(SporeWindow *self, SporeViewportPlaces *places) {
+  if (spore_window_is_picking(self)) self->picked = *places;
+  else if (spore_window_picks_places(self)) set_places(self, places->at);
+}
+
+/* The panel says why a preview that goes on has no result. Where a generator has found no places of its own, they are
+ * picked. */
+static void generator_failed(SporeWindow *self, const char *message) {
+  double given[SPORE_GENERATOR_PLACES][3];
+  const SporeGenerateOptions *options = spore_generator_get_options(self->generator);
+  if (!spore_generator_is_active(self->generator)) {
+    spore_window_complain(self, message);
+    return;
+  }
+  spore_window_show_tab(self, self->generator_panel);
+  gboolean asks = spore_generators[options->kind]->places->asked && !spore_generate_get_places(options, given);
+  if (asks && !spore_window_is_picking(self)) set_picking(self, TRUE);
 }
 
 /* Ending. */
@@ -219,29 +252,13 @@ static void applied(SporeWindow *self) {
 
 /* Showing. */
 
-/* While ends are picked, the organ is shown with the first end. */
-static SporeStageCandidate *picking_candidate(SporeWindow *self) {
-  SporeObject *body = spore_generator_get_body(self->generator);
-  SporeObject *asset = spore_generate_source(document_of(self), body, SPORE_GENERATE_CURVE, NULL);
-  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document_of(self), asset, NULL) : NULL;
-  if (!self->picked || !mesh) return NULL;
-  SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
-  candidate->body = spore_object_id(body);
-  candidate->sphere_count = 1;
-  candidate->chosen = 0;
-  candidate->spheres = g_new0(double, 4);
-  spore_vec3_store(candidate->spheres, self->first_end);
-  candidate->spheres[3] = MARK_PART * spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
-  return candidate;
-}
-
 /* The candidate of the running work, or of its result. */
 static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *quality) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeJob *job = spore_generator_get_job(self->generator);
-  if (spore_window_is_picking(self)) return picking_candidate(self);
-  if (!spore_generator_is_active(self->generator) || (!work && !job)) return NULL;
+  /* While places are picked, the organ is shown. */
+  if (spore_window_is_picking(self) || !spore_generator_is_active(self->generator) || (!work && !job)) return NULL;
   SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
   candidate->body = body ? spore_object_id(body) : 0;
   candidate->chosen = G_MAXSIZE;
@@ -288,8 +305,8 @@ static gboolean shows_look_already(SporeWindow *self) {
 }
 
 static void changed(SporeWindow *self) {
-  if (spore_window_is_picking(self) && !spore_window_picks_ends(self))
-    g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
+  if (spore_window_is_picking(self) && !spore_window_picks_places(self)) set_picking(self, FALSE);
+  show_places(self);
   if (!shows_look_already(self)) show_candidate(self);
   spore_window_show_job(self);
   spore_window_update_actions(self);
@@ -302,7 +319,7 @@ void spore_window_set_generator(SporeWindow *self) {
   spore_generator_panel_set_generator(SPORE_GENERATOR_PANEL(self->generator_panel), self->generator);
   if (!self->generator) return;
   g_signal_connect_object(self->generator, "changed", G_CALLBACK(changed), self, G_CONNECT_SWAPPED);
-  g_signal_connect_object(self->generator, "failed", G_CALLBACK(spore_window_complain), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->generator, "failed", G_CALLBACK(generator_failed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator, "applied", G_CALLBACK(applied), self, G_CONNECT_SWAPPED);
 }
 
@@ -310,7 +327,7 @@ void spore_window_add_generator_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"apply-generated", act_apply_generated},    {"cancel-job", act_cancel_job},
       {"preview-labels", act_preview_labels, "s"}, {"preview-labels-dialog", act_preview_labels_dialog},
-      {"automatic-ends", act_automatic_ends},      {"pick-ends", NULL, NULL, "false", change_pick_ends},
+      {"automatic-places", act_automatic_places},  {"pick-places", NULL, NULL, "false", change_pick_places},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
@@ -321,6 +338,7 @@ void spore_window_add_generator_actions(SporeWindow *self) {
       g_action_map_add_action_entries(G_ACTION_MAP(self), of_body, G_N_ELEMENTS(of_body), self);
   }
   g_signal_connect_object(self->viewport, "picked", G_CALLBACK(picked), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->viewport, "places-moved", G_CALLBACK(places_moved), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator_panel, "shown-quality-changed", G_CALLBACK(show_candidate), self,
                           G_CONNECT_SWAPPED);
 }

@@ -34,10 +34,9 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  GMenu *mesh_operations; /* in the menu */
-  guint picked;           /* ends of a middle line, so far */
-  SporeVec3 first_end;    /* in the body's axes */
-  SporeJob *look_job;     /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
+  GMenu *mesh_operations;     /* in the menu */
+  SporeViewportPlaces picked; /* on the organ, so far */
+  SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
   gint64 look_time;
   gboolean framed_apart; /* the view has moved to a candidate that belongs to no body */
@@ -60,8 +59,8 @@ gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWo
 void spore_window_show_job(SporeWindow *self);
 /* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
 SporeObject *spore_window_body_to_work_on(SporeWindow *self);
-/* Whether ends can be picked for what the generator makes, and whether the user picks them now. */
-gboolean spore_window_picks_ends(SporeWindow *self);
+/* Whether places on the organ can be picked for what the generator makes, and whether the user picks them now. */
+gboolean spore_window_picks_places(SporeWindow *self);
 gboolean spore_window_is_picking(SporeWindow *self);
 void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 /* Enables the actions that can be done now. */

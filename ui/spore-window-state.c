@@ -106,23 +106,22 @@ SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
   return only;
 }
 
-gboolean spore_window_picks_ends(SporeWindow *self) {
+gboolean spore_window_picks_places(SporeWindow *self) {
   return spore_generator_get_body(self->generator) &&
-         spore_generators[spore_generator_get_options(self->generator)->kind]->picks_ends;
+         spore_generators[spore_generator_get_options(self->generator)->kind]->places;
 }
 
 gboolean spore_window_is_picking(SporeWindow *self) {
-  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-ends");
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-places");
   return g_variant_get_boolean(state);
 }
 
 /* The hint. */
 
-/* What to click on, while ends are picked; else NULL. */
+/* What to click on, while places are picked; else NULL. */
 static const char *picking_hint(SporeWindow *self) {
   if (!spore_window_is_picking(self)) return NULL;
-  return self->picked ? _("Click on the organ where its middle line ends; Escape picks no more")
-                      : _("Click on the organ where its middle line begins; Escape picks no more");
+  return _(spore_generators[spore_generator_get_options(self->generator)->kind]->places->hints[self->picked.count]);
 }
 
 static const char *hint_for(SporeWindow *self) {
@@ -173,8 +172,8 @@ static void update_generator(SporeWindow *self, gboolean bodies) {
     set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
   }
   set_enabled(self, "preview-labels-dialog", !self->job);
-  set_enabled(self, "pick-ends", spore_window_picks_ends(self));
-  set_enabled(self, "automatic-ends", spore_window_picks_ends(self));
+  set_enabled(self, "pick-places", spore_window_picks_places(self));
+  set_enabled(self, "automatic-places", spore_window_picks_places(self));
   set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
   set_enabled(self, "cancel-job",
               self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player));

@@ -59,6 +59,17 @@ typedef struct SporeCurveFields {
     .doc = (meaning)                                                                                                   \
   }
 
+/* Options of a generator that are places on the organ, m in its axes, picked by hand in turn. All the same: those that
+ * the generator finds itself. */
+#define SPORE_GENERATOR_PLACES 4 /* at most */
+typedef struct SporeGeneratorPlaces {
+  const char *const *options;  /* ended by NULL */
+  const char *const *hints;    /* what to click on, one an option; N_ */
+  const char *pick, *pick_doc; /* "Pick ends"; N_ */
+  const char *automatic_doc;   /* what places of its own are; N_ */
+  gboolean asked;              /* where the generator finds none, they are asked for */
+} SporeGeneratorPlaces;
+
 typedef struct SporeGenerateWork SporeGenerateWork; /* generator_work.h */
 typedef struct SporeGeneratorType {
   const char *name;    /* of the editor's actions: generate-NAME, preview-NAME */
@@ -76,9 +87,9 @@ typedef struct SporeGeneratorType {
   const char *shows;           /* what the result is, for drawing */
   const char *title, *working; /* "Spheres of %s", "Generating spheres"; N_ */
   const char *count_label;     /* N_ */
-  const char *unit;    /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */
-  const char *offer;   /* "Number of spheres", beside the number there; N_ */
-  gboolean picks_ends; /* the options have a first and a last place, that can be picked by hand */
+  const char *unit;  /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */
+  const char *offer; /* "Number of spheres", beside the number there; N_ */
+  const SporeGeneratorPlaces *places; /* NULL: none */
   gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
   /* Puts the result into the document, as one undo step. FALSE: nothing was changed. */
   gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);

@@ -148,6 +148,17 @@ static char *facts(const SporeGenerateWork *work) {
   return g_string_free(text, FALSE);
 }
 
+static const char *const places[] = {"first_place", "last_place", NULL};
+static const char *const hints[] = {N_("Click on the organ where its middle line begins; Escape picks no more"),
+                                    N_("Click on the organ where its middle line ends; Escape picks no more")};
+static const SporeGeneratorPlaces ends = {
+    .options = places,
+    .hints = hints,
+    .pick = N_("Pick ends"),
+    .pick_doc = N_("Click on the organ where the line shall begin, then where it shall end; drag an end to move it"),
+    .automatic_doc = N_("From one end of the organ to the other, as it is found"),
+};
+
 const SporeGeneratorType spore_generator_curve = {
     .name = "curve",
     .command = "centreline",
@@ -163,7 +174,7 @@ const SporeGeneratorType spore_generator_curve = {
     .count_label = N_("Points"),
     .unit = "mechanical",
     .offer = N_("Points of the middle line"),
-    .picks_ends = TRUE,
+    .places = &ends,
     .run = run,
     .apply = apply,
     .facts = facts,

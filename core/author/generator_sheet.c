@@ -90,10 +90,30 @@ static char *facts(const SporeGenerateWork *work) {
                          100 * MAX(report->largest[0], report->largest[1]) / report->diagonal);
   g_string_append_printf(text, _("\nArea %.2f cm^2, of which the sheet has %.1f %%; fold-overs: %zu"),
                          1e4 * report->area, 100 * report->area_kept, report->fold_overs);
+  if (report->fold_overs)
+    g_string_append(text, _(" triangles; corners nearer together, or more control points, may unfold it"));
   if (spore_edit_sheet_options(&work->options.fields.surface).corners_given) add_corners(text, report);
   if (!report->reached) g_string_append(text, _("\nThe tolerance is not reached"));
   return g_string_free(text, FALSE);
 }
+
+static const char *const places[] = {"first_corner", "second_corner", "third_corner", "fourth_corner", NULL};
+static const char *const hints[] = {
+    N_("Click on the organ where the sheet has its first corner; Escape picks no more"),
+    N_("Click where the sheet has its second corner: go around it; Escape picks no more"),
+    N_("Click where the sheet has its third corner: go around it; Escape picks no more"),
+    N_("Click where the sheet has its fourth and last corner; Escape picks no more"),
+};
+static const SporeGeneratorPlaces corners = {
+    .options = places,
+    .hints = hints,
+    .pick = N_("Pick corners"),
+    .pick_doc =
+        N_("Click on the organ at four corners, in turn around the patch that becomes a sheet; drag a corner to "
+           "move it"),
+    .automatic_doc = N_("The corners of an open sheet, as they are found"),
+    .asked = TRUE,
+};
 
 const SporeGeneratorType spore_generator_sheet = {
     .name = "sheet",
@@ -110,6 +130,7 @@ const SporeGeneratorType spore_generator_sheet = {
     .count_label = N_("Control points"),
     .unit = "mechanical",
     .offer = N_("Control points of a sheet"),
+    .places = &corners,
     .error_of = error_of,
     .run = run,
     .apply = apply,

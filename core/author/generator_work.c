@@ -44,6 +44,38 @@ void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
   spore_generator_choose_way(generator, spore_generator_way(generator, generator->count), &options->fields);
 }
 
+guint spore_generate_place_count(const SporeGenerateOptions *options) {
+  const SporeGeneratorPlaces *places = spore_generators[options->kind]->places;
+  guint count = 0;
+  while (places && places->options[count]) count++;
+  return count;
+}
+
+/* The parameter of a place of the options. */
+static const SporeParameter *place_of(const SporeGenerateOptions *options, guint k) {
+  const SporeGeneratorType *generator = spore_generators[options->kind];
+  SporeParameterTable table = spore_generator_table(generator);
+  return &table.parameters[spore_parameter_find(&table, generator->places->options[k])];
+}
+
+gboolean spore_generate_get_places(const SporeGenerateOptions *options, double places[SPORE_GENERATOR_PLACES][3]) {
+  gboolean given = FALSE;
+  for (guint k = 0; k < spore_generate_place_count(options); k++) {
+    const SporeValue value = spore_parameter_load(place_of(options, k), &options->fields);
+    memcpy(places[k], value.number, sizeof places[k]);
+    given = given || memcmp(places[k], places[0], sizeof places[k]) != 0;
+  }
+  return given;
+}
+
+void spore_generate_set_places(SporeGenerateOptions *options, double places[SPORE_GENERATOR_PLACES][3]) {
+  for (guint k = 0; k < spore_generate_place_count(options); k++) {
+    SporeValue value = {.type = SPORE_VECTOR};
+    if (places) memcpy(value.number, places[k], sizeof places[k]);
+    spore_parameter_store(place_of(options, k), &value, &options->fields);
+  }
+}
+
 SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options) {
   SporeGenerateOptions copy = *options;
   spore_generate_set_count(&copy, 0);

@@ -47,6 +47,12 @@ SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObj
 size_t spore_generate_get_count(const SporeGenerateOptions *options);
 /* Sets the number, and chooses the way "by number", where the number differs from the present one. */
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
+/* How many places on the organ the options have; 0: this kind of generator has none. */
+guint spore_generate_place_count(const SporeGenerateOptions *options);
+/* places: that many, m. FALSE: they are all the same, which is "none given". */
+gboolean spore_generate_get_places(const SporeGenerateOptions *options, double places[SPORE_GENERATOR_PLACES][3]);
+/* places NULL: none given. */
+void spore_generate_set_places(SporeGenerateOptions *options, double places[SPORE_GENERATOR_PLACES][3]);
 
 /* What all generators share: the state they started from, for comparison when they have finished. References are
  * counted. */

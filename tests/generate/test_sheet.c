@@ -290,6 +290,9 @@ static void test_no_patch(void) {
   options = between(corner);
   memcpy(options.corners[2], options.corners[1], sizeof options.corners[1]);
   refuse(&ball, &options, "corners 2 and 3 come to lie at the same place");
+  options = between(corner);
+  options.corners[1][1] = 0.3;
+  refuse(&ball, &options, "corner 2 lies 0.253 m off the surface");
   shape_ball(&other, 0.02, 4);
   shape_move(&other, 0.2, 0, 0);
   shape_append(&ball, &other);
@@ -327,9 +330,11 @@ static void test_cancel(void) {
   SporeTriangleMesh mesh, patch;
   SporeSheetReport report;
   make(&mesh, saddle, 40, 40);
-  SporeSheetOptions options = {.control_points = 12};
-  for (int questions = 0; questions < 3; questions++) {
-    int left = questions;
+  SporeSheetOptions options = {.control_points = SPORE_SHEET_MOST_POINTS};
+  /* Places between two questions cost as much whatever the sheet: the fit asks the more, the more control points. */
+  const int asked = (int)(16 * SPORE_SHEET_MOST_POINTS * SPORE_SHEET_MOST_POINTS / 1200), after[] = {0, 1, 2, asked};
+  for (gsize i = 0; i < G_N_ELEMENTS(after); i++) {
+    int left = after[i];
     const SporeProgress progress = {.report = stops, .data = &left};
     SporeError error = SPORE_ERROR_INIT;
     g_assert_false(spore_sheet_from_mesh(&mesh, &options, &patch, NULL, &report, &progress, &error));

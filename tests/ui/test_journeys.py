@@ -579,15 +579,63 @@ def ends_picked_by_hand():
         assert abs(abs(last - first) - 1e-3 * picked) < 6e-3, (first, last, picked)
         editor.act("preview-curve", "u", 0)
         assert abs(line_length(editor) - picked) < 1e-6
-        editor.act("automatic-ends")
+        editor.act("automatic-places")
         ui.wait(lambda: abs(line_length(editor) - whole) < 1, "the whole line", 60)
         editor.focus()
         editor.keys("ctrl+e")
-        ui.wait(lambda: editor.state("pick-ends"), "Ctrl+E to begin picking")
+        ui.wait(lambda: editor.state("pick-places"), "Ctrl+E to begin picking")
         editor.mouse("mousemove", x + width // 2, y + height // 2 + 200)
         editor.keys("Escape")
-        ui.wait(lambda: not editor.state("pick-ends"), "Escape to end the picking")
+        ui.wait(lambda: not editor.state("pick-places"), "Escape to end the picking")
         assert editor.enabled("apply-generated")
+
+
+def sides_of_sheet(editor):
+    """Sides, mm, of the patch that the panel tells of; None: it tells of none."""
+    label = editor.look("label", r"(?s)control points.*Sides .* mm", showing=False)
+    return label and [float(side) for side in re.search(r"Sides ([\d., ]+) mm", label.get_name())[1].split(", ")]
+
+
+def click(editor, *places):
+    for x, y in places:
+        editor.mouse("mousemove", x, y, "click", 1)
+
+
+@check
+def corners_of_a_sheet_picked_by_hand():
+    """the four corners of a sheet are picked on a closed organ, shown, dragged, refused in words where they cross, and applied as one step."""
+    with start() as editor:
+        import_ball(editor)
+        before = saved(editor, "no_sheet")
+        editor.act("view", "s", "front")
+        editor.act("preview-sheet", "u", 0)
+        editor.find("label", "sheet has its first corner")
+        left, top, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        x, y, r = left + width // 2, top + height // 2, height // 8
+        corners = [(x - r, y + r), (x + r, y + r), (x + r, y - r), (x - r, y - r)]
+        editor.find("label", "(?s)the surface is closed.*expected four corners", showing=False)
+        click(editor, (left + 20, top + height - 20), corners[0], corners[2])
+        editor.find("label", "sheet has its third corner")
+        click(editor, corners[1], corners[3])
+        editor.find("label", "(?s)meets another side or corner on its way", showing=False)
+        assert not editor.enabled("apply-generated")
+        # The corners are numbered 1, 3, 2, 4 around the patch: the second and third change places.
+        editor.mouse("mousemove", *corners[2], "mousedown", 1, "mousemove", x + r // 2, y - r, "mouseup", 1)
+        editor.mouse("mousemove", *corners[1], "mousedown", 1, "mousemove", *corners[2], "mouseup", 1)
+        editor.mouse("mousemove", x + r // 2, y - r, "mousedown", 1, "mousemove", *corners[1], "mouseup", 1)
+        sides = ui.wait(lambda: sides_of_sheet(editor), "the sheet")
+        assert max(sides) < 1.1 * min(sides), sides
+        editor.find("drawing area", "Histogram of Distance from the sheet: mean .* mm")
+        editor.mouse("mousemove", *corners[0], "mousedown", 1, "mousemove", x - r // 2, y + r // 2, "mouseup", 1)
+        ui.wait(lambda: (sides_of_sheet(editor) or sides)[0] < 0.9 * sides[0], "a shorter side")
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("ball_sheet"), "the sheet")
+        text = saved(editor, "sheet")
+        assert "<spline_2d" in text and "fourth_corner=" in text, text
+        editor.act("undo")
+        assert saved(editor, "no_sheet") == before
+        editor.act("redo")
+        assert saved(editor, "sheet") == text
 
 
 def points_of(editor, name):

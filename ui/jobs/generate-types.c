@@ -232,8 +232,7 @@ static const SporeGenerateType curve_type = {
 
 /* The edges of a mesh, drawn over the coloured surface. */
 static void show_edges(const SporeTriangleMesh *mesh, SporeStageCandidate *candidate) {
-  candidate->are_edges = TRUE;
-  candidate->line_count = 3 * mesh->triangle_count;
+  candidate->edge_count = candidate->line_count = 3 * mesh->triangle_count;
   candidate->lines = g_new(double, 6 * candidate->line_count);
   for (gsize i = 0; i < candidate->line_count; i++) {
     const guint32 *corners = mesh->triangles + 3 * (i / 3);
@@ -300,9 +299,33 @@ static void measure_distance_of_sheet(const SporeGenerateWork *work, SporeQualit
   quality->values = scaled(work->surface_distance, quality->count, 1, 1e3);
 }
 
+/* The ends of side h % 3 of triangle h / 3, in turn or against it. */
+static guint64 side_key(const SporeTriangleMesh *mesh, gsize h, gboolean against) {
+  guint64 from = mesh->triangles[h], to = mesh->triangles[h % 3 == 2 ? h - 2 : h + 1];
+  return against ? to << 32 | from : from << 32 | to;
+}
+
+/* Adds the sides that have a triangle on one side alone. */
+static void add_border(const SporeTriangleMesh *mesh, SporeStageCandidate *candidate) {
+  g_autoptr(GHashTable) sides = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+  for (gsize h = 0; h < 3 * mesh->triangle_count; h++) {
+    const guint64 key = side_key(mesh, h, FALSE);
+    g_hash_table_add(sides, g_memdup2(&key, sizeof key));
+  }
+  candidate->lines = g_renew(double, candidate->lines, 6 * (candidate->line_count + 3 * mesh->triangle_count));
+  for (gsize h = 0; h < 3 * mesh->triangle_count; h++) {
+    const guint64 key = side_key(mesh, h, TRUE);
+    if (g_hash_table_contains(sides, &key)) continue;
+    double *line = candidate->lines + 6 * candidate->line_count++;
+    memcpy(line, mesh->vertices + 3 * (key & G_MAXUINT32), 3 * sizeof *line);
+    memcpy(line + 3, mesh->vertices + 3 * (key >> 32), 3 * sizeof *line);
+  }
+}
+
 static void show_patch(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
   show_surface(&work->surface, places, candidate);
   show_edges(&work->mesh, candidate);
+  add_border(&work->surface, candidate);
 }
 
 static const SporeGenerateQuality sheet_qualities[] = {

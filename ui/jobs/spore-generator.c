@@ -19,6 +19,7 @@ struct _SporeGenerator {
   guint timer;
   SporeJob *job;
   SporeGenerateWork *result;
+  char *refusal;
 };
 
 G_DEFINE_FINAL_TYPE(SporeGenerator, spore_generator, G_TYPE_OBJECT)
@@ -36,16 +37,26 @@ static void drop_job(SporeGenerator *self) {
   g_clear_object(&self->job);
 }
 
-static void drop(SporeGenerator *self) {
+static void drop_result(SporeGenerator *self) {
   drop_job(self);
   g_clear_pointer(&self->result, spore_generate_work_unref);
+  g_clear_pointer(&self->refusal, g_free);
+}
+
+static void drop(SporeGenerator *self) {
+  drop_result(self);
   self->active = self->apply_when_done = FALSE;
 }
 
+/* Other places may do better, so that the preview waits for them. */
 static void fail(SporeGenerator *self, const GError *error) {
-  drop(self);
-  if (!g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED))
-    g_signal_emit(self, signals[FAILED], 0, error->message);
+  gboolean cancelled = g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
+  gboolean goes_on = !cancelled && spore_generators[self->options.kind]->places;
+  if (goes_on) drop_result(self);
+  else drop(self);
+  self->apply_when_done = FALSE;
+  if (goes_on) self->refusal = g_strdup(error->message);
+  if (!cancelled) g_signal_emit(self, signals[FAILED], 0, error->message);
   tell(self);
 }
 
@@ -114,9 +125,8 @@ gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const 
   gboolean again = self->active && self->body == id && self->options.kind == options->kind &&
                    self->options.labels == options->labels;
   if (again && self->result && change_purpose(self, options)) return TRUE;
-  if (!again) drop(self);
-  drop_job(self);
-  g_clear_pointer(&self->result, spore_generate_work_unref);
+  if (again) drop_result(self);
+  else drop(self);
   self->active = TRUE;
   self->body = id;
   self->options = *options;
@@ -164,6 +174,8 @@ SporeObject *spore_generator_get_body(SporeGenerator *self) {
 const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self) { return &self->options; }
 
 const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self) { return self->result; }
+
+const char *spore_generator_get_refusal(SporeGenerator *self) { return self->refusal; }
 
 SporeJob *spore_generator_get_job(SporeGenerator *self) { return self->job; }
 

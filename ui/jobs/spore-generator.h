@@ -3,7 +3,8 @@
  *
  * Signals
  *   changed ()           anything below may have; on the GTK thread, at most ten times a second while it works
- *   failed (s message)   there is no result, and the preview has ended; not when it was cancelled
+ *   failed (s message)   there is no result; not when it was cancelled. The preview has ended, unless its generator has
+ *                        places to pick, which may be picked elsewhere then
  *   applied ()           the document has the result, which can still be read during the call                      */
 #ifndef SPORE_UI_JOBS_SPORE_GENERATOR_H
 #define SPORE_UI_JOBS_SPORE_GENERATOR_H
@@ -36,7 +37,9 @@ gboolean spore_generator_is_working(SporeGenerator *self);   /* or about to */
 SporeObject *spore_generator_get_body(SporeGenerator *self); /* NULL: not active, or of a file */
 const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self); /* when active */
 const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self);     /* NULL: none with these options */
-SporeJob *spore_generator_get_job(SporeGenerator *self);                       /* NULL: does not run */
+/* Why a preview that goes on has no result; NULL: it has not failed. */
+const char *spore_generator_get_refusal(SporeGenerator *self);
+SporeJob *spore_generator_get_job(SporeGenerator *self); /* NULL: does not run */
 
 G_END_DECLS
 #endif

@@ -19,7 +19,7 @@
 struct _SporeGeneratorPanel {
   GtkBox parent;
   GtkWidget *empty, *content, *columns, *title, *rows, *shown, *inside, *cut, *axis, *apart, *facts, *apply, *cancel,
-      *histogram, *numbers, *measure, *plot, *ends, *organs, *labels;
+      *histogram, *numbers, *measure, *plot, *places, *pick, *automatic, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
   gboolean filling;
@@ -47,12 +47,20 @@ static void options_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
   preview(self, &options);
 }
 
+static void show_places(SporeGeneratorPanel *self, const SporeGeneratorPlaces *places) {
+  gtk_widget_set_visible(self->places, places != NULL);
+  if (!places) return;
+  gtk_button_set_label(GTK_BUTTON(self->pick), _(places->pick));
+  gtk_widget_set_tooltip_text(self->pick, _(places->pick_doc));
+  gtk_widget_set_tooltip_text(self->automatic, _(places->automatic_doc));
+}
+
 static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *options) {
   const SporeGenerateType *type = spore_generate_type(options->kind);
   const SporeParameterTable table = spore_generator_table(spore_generators[options->kind]);
   spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), &table, options);
   gtk_widget_set_visible(self->numbers, type->counts != NULL);
-  gtk_widget_set_visible(self->ends, spore_generators[options->kind]->picks_ends);
+  show_places(self, spore_generators[options->kind]->places);
   /* The organs of a label map are known once the map was read. */
   gtk_widget_set_visible(self->organs, options->labels && spore_generator_get_result(self->generator));
   if (gtk_widget_get_visible(self->organs)) spore_label_list_set_options(SPORE_LABEL_LIST(self->labels), options);
@@ -104,7 +112,9 @@ static void show_result(SporeGeneratorPanel *self) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeQuality quality = {0};
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
-  g_autofree char *facts = work ? spore_generators[work->options.kind]->facts(work) : g_strdup(_("Working…"));
+  const char *refusal = spore_generator_get_refusal(self->generator);
+  g_autofree char *facts =
+      work ? spore_generators[work->options.kind]->facts(work) : g_strdup(refusal ? refusal : _("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
   gtk_widget_set_visible(self->histogram, !quality.names);
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
@@ -210,7 +220,9 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, numbers);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, measure);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, plot);
-  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, ends);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, places);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, pick);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, automatic);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, organs);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, labels);
 }

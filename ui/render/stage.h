@@ -26,8 +26,8 @@ typedef struct SporeStageCandidate {
   float *vertex_values; /* vertex_count, as sphere_values */
   SporeCellView view;   /* how cells are cut open; read by whoever fills the candidate */
   gsize line_count;
-  double *lines;      /* line_count x 2 points x 3 */
-  gboolean are_edges; /* the lines are edges of triangles: thin, and hidden behind what is nearer */
+  double *lines;    /* line_count x 2 points x 3 */
+  gsize edge_count; /* of the lines, the first so many are edges of triangles: thin, and hidden behind what is nearer */
 } SporeStageCandidate;
 void spore_stage_candidate_free(SporeStageCandidate *candidate);
 

@@ -74,7 +74,7 @@ struct SporeStage {
   guint64 cut_run;
   GArray *contacts;                     /* double: segments of the contacts shown */
   const SporeStageCandidate *candidate; /* NULL: none */
-  guint candidate_handles[4];           /* spheres, the marked one, surface, lines; 0: none */
+  guint candidate_handles[5];           /* spheres, the marked one, surface, edges, lines; 0: none */
   const SporeStageMarks *marks;         /* NULL: none */
   guint marks_handle;
 };

@@ -46,6 +46,18 @@ static void add_surface(SporeStage *stage, const SporeStageCandidate *candidate,
                                         candidate->triangle_count, candidate->vertex_values);
 }
 
+static void add_lines(SporeStage *stage, const SporeStageCandidate *candidate, SporePose pose) {
+  g_autofree double *lines = posed(pose, candidate->lines, 2 * candidate->line_count, 3);
+  gsize edges = candidate->edge_count, others = candidate->line_count - edges;
+  if (edges) {
+    stage->candidate_handles[3] = spore_renderer_add_lines(stage->renderer, lines, edges, edge_colour, 1);
+    spore_renderer_see_lines_through(stage->renderer, stage->candidate_handles[3], 0);
+  }
+  if (others)
+    stage->candidate_handles[4] =
+        spore_renderer_add_lines(stage->renderer, lines + 6 * edges, others, line_colour, 2.5f);
+}
+
 void spore_stage_place_candidate(SporeStage *stage) {
   const SporeStageCandidate *candidate = stage->candidate;
   for (guint i = 0; i < G_N_ELEMENTS(stage->candidate_handles); i++)
@@ -57,12 +69,7 @@ void spore_stage_place_candidate(SporeStage *stage) {
   SporePose pose = body ? spore_body_pose(body) : spore_pose_identity();
   if (candidate->sphere_count) add_spheres(stage, candidate, pose);
   if (candidate->triangle_count) add_surface(stage, candidate, pose);
-  if (!candidate->line_count) return;
-  g_autofree double *lines = posed(pose, candidate->lines, 2 * candidate->line_count, 3);
-  stage->candidate_handles[3] =
-      spore_renderer_add_lines(stage->renderer, lines, candidate->line_count,
-                               candidate->are_edges ? edge_colour : line_colour, candidate->are_edges ? 1 : 2.5f);
-  if (candidate->are_edges) spore_renderer_see_lines_through(stage->renderer, stage->candidate_handles[3], 0);
+  if (candidate->line_count) add_lines(stage, candidate, pose);
 }
 
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate) {

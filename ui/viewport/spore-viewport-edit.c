@@ -8,8 +8,6 @@
 #define RADIUS_A_NOTCH 1.05
 #define NOTCHES_REST_MS 400 /* wheel notches that come faster are one step */
 #define STEP_PART 0.1       /* part of the radius that an arrow key moves by */
-#define HANDLE_PIXELS 6.0   /* radius as drawn */
-#define REACH_PIXELS 11.0   /* distance from a handle within which a click meets it */
 #define LEAST_M 1e-5        /* radius */
 
 static SporeDocument *document_of(SporeViewport *self) { return spore_editor_document_get(self->document); }
@@ -50,31 +48,12 @@ static SporeVec3 rim_of(SporeViewport *self, const double *ball) {
   return spore_vec3_add_scaled(middle_of(self, ball), ball[3], right);
 }
 
-static gboolean is_at(SporeViewport *self, SporeVec3 handle, double x, double y) {
-  double at_x, at_y;
-  return spore_camera_project(&self->camera, handle, width_of(self), height_of(self), &at_x, &at_y) &&
-         hypot(at_x - x, at_y - y) <= REACH_PIXELS;
-}
-
-static void draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled) {
-  double x, y;
-  if (!spore_camera_project(&self->camera, handle, width_of(self), height_of(self), &x, &y)) return;
-  cairo_new_path(cr);
-  cairo_arc(cr, x, y, HANDLE_PIXELS, 0, 2 * G_PI);
-  if (filled) cairo_set_source_rgb(cr, 1, 0.85, 0.3);
-  else cairo_set_source_rgba(cr, 1, 1, 1, 0.75);
-  cairo_fill_preserve(cr);
-  cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-  cairo_set_line_width(cr, 1.5);
-  cairo_stroke(cr);
-}
-
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr) {
   const double *ball = chosen(self);
   if (self->tool != SPORE_VIEWPORT_TOOL_EDIT) return;
   for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++)
-    draw_handle(self, cr, middle_of(self, self->edit.points + 4 * i), i == self->edit.chosen);
-  if (ball) draw_handle(self, cr, rim_of(self, ball), TRUE);
+    spore_viewport_draw_handle(self, cr, middle_of(self, self->edit.points + 4 * i), i == self->edit.chosen);
+  if (ball) spore_viewport_draw_handle(self, cr, rim_of(self, ball), TRUE);
 }
 
 /* Showing. */
@@ -154,11 +133,11 @@ static gboolean notches_rest(gpointer data) {
 /* TRUE: a handle was there. */
 static gboolean pick_handle(SporeViewport *self, double x, double y) {
   const double *ball = chosen(self);
-  self->edit_resizes = ball && is_at(self, rim_of(self, ball), x, y);
+  self->edit_resizes = ball && spore_viewport_handle_is_at(self, rim_of(self, ball), x, y);
   if (self->edit_resizes) return TRUE;
-  if (edits_regions(self) && ball && is_at(self, middle_of(self, ball), x, y)) return TRUE;
+  if (edits_regions(self) && ball && spore_viewport_handle_is_at(self, middle_of(self, ball), x, y)) return TRUE;
   for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++) {
-    if (!is_at(self, middle_of(self, self->edit.points + 4 * i), x, y)) continue;
+    if (!spore_viewport_handle_is_at(self, middle_of(self, self->edit.points + 4 * i), x, y)) continue;
     self->edit.chosen = i;
     return TRUE;
   }

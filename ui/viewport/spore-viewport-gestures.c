@@ -153,13 +153,22 @@ static void release_pull(SporeViewport *self) {
   if (session_of(self)) spore_session_post(session_of(self), &command);
 }
 
+/* Places. */
+
+static void move_place(SporeViewport *self) {
+  SporeVec3 point;
+  guint32 body = pick(self, self->last_x, self->last_y, &point);
+  if (body) spore_viewport_places_motion(self, body, point);
+}
+
 /* Drags. */
 
 void spore_viewport_end_drag(SporeViewport *self) {
-  gboolean edits = self->drag == DRAG_EDIT && self->document;
+  gboolean edits = self->drag == DRAG_EDIT && self->document, places = self->drag == DRAG_PLACE && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
   if (edits) spore_viewport_edit_release(self, TRUE);
+  if (places) spore_viewport_places_release(self, TRUE);
 }
 
 static void abort_drag(SporeViewport *self) {
@@ -171,6 +180,10 @@ static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_EDIT) {
     self->drag = DRAG_NONE;
     spore_viewport_edit_release(self, FALSE);
+  }
+  if (self->drag == DRAG_PLACE) {
+    self->drag = DRAG_NONE;
+    spore_viewport_places_release(self, FALSE);
   }
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
@@ -184,6 +197,7 @@ static void begin_camera(SporeViewport *self, gboolean pan) {
 
 static void press_left(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
+  if (spore_viewport_places_press(self, event->x, event->y)) return;
   if (self->picking) {
     guint32 body = pick(self, event->x, event->y, &point);
     if (body) g_signal_emit_by_name(self, "picked", body, &point);
@@ -265,6 +279,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   case DRAG_EDIT:
     spore_viewport_edit_motion(self);
     break;
+  case DRAG_PLACE:
+    move_place(self);
+    break;
   }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -298,7 +315,7 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   switch (event->keyval) {
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);
-    else if (self->picking) spore_activate(area, "pick-ends", NULL); /* no more */
+    else if (self->picking) spore_activate(area, "pick-places", NULL); /* no more */
     else if (has_whole_screen(area)) spore_activate(area, "present", NULL);
     else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
     break;

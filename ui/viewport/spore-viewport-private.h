@@ -5,7 +5,7 @@
 #include "ui/document/hand-edit.h"
 #include "ui/viewport/spore-viewport.h"
 
-typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT } SporeDrag;
+typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE } SporeDrag;
 
 struct _SporeViewport {
   GtkOverlay parent;
@@ -22,7 +22,10 @@ struct _SporeViewport {
   gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
   double edit_before[4]; /* the chosen sphere or point when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
-  GHashTable *hidden;    /* ids of bodies that are not shown, as pointers */
+  SporeViewportPlaces places;
+  guint place_held; /* by the drag */
+  SporeVec3 place_before;
+  GHashTable *hidden; /* ids of bodies that are not shown, as pointers */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
   char *legend;      /* of the candidate's colours; NULL: none */
@@ -69,6 +72,17 @@ void spore_viewport_look_afresh(SporeViewport *self);
 /* The view no longer looks through a camera of the scene. Called before the user moves the view. */
 void spore_viewport_leave_scene_camera(SporeViewport *self);
 void spore_viewport_clear_legend(SporeViewport *self);
+
+/* Handles: discs of a fixed size on the screen, at places of the scene. */
+void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled);
+gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y);
+
+/* spore-viewport-places.c: places picked by hand. */
+gboolean spore_viewport_places_press(SporeViewport *self, double x, double y); /* FALSE: no handle was there */
+/* The cursor meets that body there, in the scene. */
+void spore_viewport_places_motion(SporeViewport *self, guint32 body, SporeVec3 place);
+void spore_viewport_places_release(SporeViewport *self, gboolean keep);
+void spore_viewport_places_draw(SporeViewport *self, cairo_t *cr);
 
 /* spore-viewport-edit.c: the Edit tool. */
 /* Shows what the selection offers to edit. */

@@ -1,5 +1,10 @@
 /* What the viewport looks at: the camera, the candidate, and the welcome of an empty scene. */
+#include <math.h>
+
 #include "ui/viewport/spore-viewport-private.h"
+
+#define HANDLE_PIXELS 6.0 /* radius as drawn */
+#define REACH_PIXELS 11.0 /* distance from a handle within which a click meets it */
 
 void spore_viewport_redraw(SporeViewport *self) {
   self->stale = TRUE;
@@ -68,6 +73,31 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
   self->camera.azimuth = right ? G_PI_2 : 0;
   self->camera.elevation = top ? G_PI_2 * 0.99 : 0;
   spore_viewport_redraw(self);
+}
+
+/* Handles. */
+
+static gboolean project(SporeViewport *self, SporeVec3 handle, double *x, double *y) {
+  return spore_camera_project(&self->camera, handle, gtk_widget_get_allocated_width(self->area),
+                              gtk_widget_get_allocated_height(self->area), x, y);
+}
+
+gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y) {
+  double at_x, at_y;
+  return project(self, handle, &at_x, &at_y) && hypot(at_x - x, at_y - y) <= REACH_PIXELS;
+}
+
+void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled) {
+  double x, y;
+  if (!project(self, handle, &x, &y)) return;
+  cairo_new_path(cr);
+  cairo_arc(cr, x, y, HANDLE_PIXELS, 0, 2 * G_PI);
+  if (filled) cairo_set_source_rgb(cr, 1, 0.85, 0.3);
+  else cairo_set_source_rgba(cr, 1, 1, 1, 0.75);
+  cairo_fill_preserve(cr);
+  cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+  cairo_set_line_width(cr, 1.5);
+  cairo_stroke(cr);
 }
 
 /* The candidate. */

@@ -14,7 +14,7 @@
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
 
-enum { PICKED, SIGNAL_COUNT };
+enum { PICKED, PLACES_MOVED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 /* Drawing. */
@@ -121,6 +121,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   cairo_restore(cr);
   spore_viewport_overlay_draw(self, cr, width, height);
   spore_viewport_edit_draw(self, cr);
+  spore_viewport_places_draw(self, cr);
   return FALSE;
 }
 
@@ -286,6 +287,8 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   G_OBJECT_CLASS(class)->dispose = spore_viewport_dispose;
   signals[PICKED] = g_signal_new("picked", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
                                  G_TYPE_NONE, 2, G_TYPE_UINT, G_TYPE_POINTER);
+  signals[PLACES_MOVED] = g_signal_new("places-moved", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                                       G_TYPE_NONE, 1, G_TYPE_POINTER);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);

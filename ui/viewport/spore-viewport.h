@@ -9,7 +9,8 @@
  * Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
  *
  * Signals
- *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m */
+ *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m
+ *   places-moved (p places)    a picked place was dragged elsewhere: const SporeViewportPlaces * */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 
@@ -24,6 +25,13 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_VIEWPORT spore_viewport_get_type()
 G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
 
+/* Places picked on a body, shown as numbered handles. */
+typedef struct SporeViewportPlaces {
+  guint32 body; /* object id */
+  guint count;
+  double at[SPORE_GENERATOR_PLACES][3]; /* in the body's axes, m */
+} SporeViewportPlaces;
+
 typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEWPORT_TOOL_EDIT } SporeViewportTool;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
@@ -37,6 +45,8 @@ gboolean spore_viewport_edits_regions(SporeViewport *self);
 gboolean spore_viewport_has_edited(SporeViewport *self);
 /* While picking, a click of the left button on a body emits "picked" instead of selecting the body. */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
+/* Shows the places; count 0: none. They can be dragged over the body's surface. */
+void spore_viewport_set_places(SporeViewport *self, const SporeViewportPlaces *places);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 /* Shows a candidate over the scene, with the legend of its colours (read during the call; without values: no legend).
  * Takes the candidate; NULL: none. */

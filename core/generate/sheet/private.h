@@ -79,6 +79,8 @@ typedef struct SporeSheetFitting {
   double *parameters; /* vertex_count x 2 */
   double smoothing;   /* m */
   SporeBvh *bvh;      /* of the patch */
+  const SporeProgress *progress;
+  double done; /* share of the work, for the progress */
 } SporeSheetFitting;
 /* Fits a sheet of so many control points, and fills the report's figures of it. distance: vertex_count, m, or NULL. */
 bool spore_sheet_measure(const SporeSheetFitting *fitting, const size_t points[2], double *distance,

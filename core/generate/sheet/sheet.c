@@ -99,15 +99,14 @@ static double worst(const SporeSheetReport *report) { return fmax(report->larges
 
 /* The fewest control points that reach the tolerance: twice as many until they do, and then between. Where none do, the
  * number with the least error. */
-static bool search(const SporeSheetFitting *fitting, const SporeSheetOptions *options, const double length[2],
-                   size_t *count, const SporeProgress *progress, SporeError *error) {
+static bool search(SporeSheetFitting *fitting, const SporeSheetOptions *options, const double length[2], size_t *count,
+                   SporeError *error) {
   size_t low = SPORE_SHEET_LEAST_POINTS - 1, high = 0, best = SPORE_SHEET_LEAST_POINTS, points[2];
   double least = HUGE_VAL;
   for (size_t next = SPORE_SHEET_LEAST_POINTS, round = 0; next > low && next != high; round++) {
     SporeSheetReport tried;
-    if (!spore_progress_step(progress, LAID_OUT + (1 - LAID_OUT) * (1 - pow(0.8, (double)round)),
-                             _("choosing control points"), error))
-      return false;
+    fitting->done = LAID_OUT + (1 - LAID_OUT) * (1 - pow(0.8, (double)round));
+    if (!spore_progress_step(fitting->progress, fitting->done, _("choosing control points"), error)) return false;
     share_points(length, next, points);
     if (!spore_sheet_measure(fitting, points, NULL, &tried, error)) return false;
     if (worst(&tried) < least) least = worst(&tried), best = next;
@@ -120,18 +119,19 @@ static bool search(const SporeSheetFitting *fitting, const SporeSheetOptions *op
 }
 
 static bool fit(SporeSheetFitting *fitting, const SporeSheetOptions *options, double *distance,
-                SporeSheetReport *report, const SporeProgress *progress, SporeError *error) {
+                SporeSheetReport *report, SporeError *error) {
   double length[2];
   size_t count = options->control_points, points[2];
+  fitting->done = LAID_OUT;
   fitting->bvh = spore_bvh_create(fitting->patch, error);
-  if (!fitting->bvh || !spore_progress_step(progress, LAID_OUT, _("fitting the sheet"), error)) return false;
+  if (!fitting->bvh || !spore_progress_step(fitting->progress, LAID_OUT, _("fitting the sheet"), error)) return false;
   side_lengths(fitting, length);
-  if (!count && !search(fitting, options, length, &count, progress, error)) return false;
+  if (!count && !search(fitting, options, length, &count, error)) return false;
   share_points(length, count, points);
   if (!spore_sheet_measure(fitting, points, distance, report, error)) return false;
   report->diagonal = spore_mesh_diagonal(fitting->patch->vertices, fitting->patch->vertex_count, 3);
   report->reached = options->control_points || worst(report) <= options->tolerance;
-  return spore_progress_step(progress, 1, NULL, error);
+  return spore_progress_step(fitting->progress, 1, NULL, error);
 }
 
 static bool check(const SporeSheetOptions *options, SporeError *error) {
@@ -148,7 +148,7 @@ bool spore_sheet_from_mesh(const SporeTriangleMesh *mesh, const SporeSheetOption
                            double **distance, SporeSheetReport *report, const SporeProgress *progress,
                            SporeError *error) {
   uint64_t start = spore_clock_ns();
-  SporeSheetFitting fitting = {.patch = patch, .smoothing = options->smoothing};
+  SporeSheetFitting fitting = {.patch = patch, .smoothing = options->smoothing, .progress = progress};
   double *off = NULL;
   *patch = (SporeTriangleMesh){0}, *report = (SporeSheetReport){0};
   bool good = check(options, error) && spore_progress_step(progress, 0, _("cutting out the patch"), error) &&
@@ -157,7 +157,7 @@ bool spore_sheet_from_mesh(const SporeTriangleMesh *mesh, const SporeSheetOption
     off = SPORE_NEW_ARRAY(double, patch->vertex_count);
     good = off || spore_generate_no_memory(error);
   }
-  good = good && fit(&fitting, options, off, report, progress, error);
+  good = good && fit(&fitting, options, off, report, error);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - start);
   spore_free(fitting.parameters);
   spore_bvh_free(fitting.bvh);

@@ -10,6 +10,7 @@
 #define NONE SPORE_SHEET_NONE
 #define SNAP 0.02    /* of a triangle: a corner so near to a vertex or an edge lies on it */
 #define ON_EDGE 0.01 /* of the diagonal: a corner so near to an open edge lies on it */
+#define FAR 0.5      /* of its diagonal: a place so far from the surface is not meant to lie on it */
 
 /* Corners. */
 
@@ -55,13 +56,22 @@ static uint32_t nearest_open_edge(const SporeSheetCut *cut, SporeVec3 p, double 
   return best;
 }
 
+static bool is_near(double distance, double diagonal, size_t k, SporeError *error) {
+  if (distance <= FAR * diagonal) return true;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("corner %zu lies %.3g m off the surface, which measures %.3g m across; expected a place on "
+                           "the surface or near it, in metres; move it"),
+                         k + 1, distance, diagonal);
+}
+
 static bool place_corners(SporeSheetCut *cut, const SporeSheetOptions *options, uint32_t corner[4],
                           SporeSheetReport *report, SporeError *error) {
-  double reach = ON_EDGE * spore_mesh_diagonal(cut->vertices, cut->vertex_count, 3);
+  double diagonal = spore_mesh_diagonal(cut->vertices, cut->vertex_count, 3), reach = ON_EDGE * diagonal;
   for (size_t k = 0; k < 4; k++) {
     SporeVec3 given = spore_vec3_load(options->corners[k]), at = {0, 0, 0};
     double share = 0;
     uint32_t triangle = spore_sheet_cut_nearest(cut, given, &at), open = nearest_open_edge(cut, at, reach, &share);
+    if (!is_near(spore_vec3_distance(given, at), diagonal, k, error)) return false;
     if (!(open != NONE ? vertex_on_edge(cut, open, share, &corner[k], error)
                        : vertex_in_triangle(cut, triangle, at, &corner[k], error)))
       return false;
