@@ -77,7 +77,7 @@ static void preview_label_map(SporeWindow *self, SporeObject *body, SporeObject 
     return;
   }
   SporeLabelSource *source = spore_label_source_new_of(spore_object_text(map, "file"), content);
-  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source};
+  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source, .listing = TRUE};
   spore_object_fields(spore_edit_body_tetrahedra(document_of(self), body), &options.fields);
   if (count) spore_generate_set_count(&options, count);
   preview(self, NULL, &options, FALSE);
@@ -119,7 +119,7 @@ static void act_preview(GSimpleAction *action, GVariant *parameter, gpointer dat
 
 void spore_window_preview_labels(SporeWindow *self, const char *file) {
   SporeLabelSource *source = spore_label_source_new(file);
-  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source};
+  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source, .listing = TRUE};
   spore_generate_set_initial(&options);
   spore_generate_set_count(&options, USUAL_LABEL_CELLS);
   preview(self, NULL, &options, FALSE);
@@ -221,7 +221,8 @@ static void generator_failed(SporeWindow *self, const char *message) {
     return;
   }
   spore_window_show_tab(self, self->generator_panel);
-  gboolean asks = spore_generators[options->kind]->places->asked && !spore_generate_get_places(options, given);
+  const SporeGeneratorPlaces *places = spore_generators[options->kind]->places;
+  gboolean asks = places && places->asked && !spore_generate_get_places(options, given);
   if (asks && !spore_window_is_picking(self)) set_picking(self, TRUE);
 }
 
@@ -231,6 +232,10 @@ static void act_apply_generated(GSimpleAction *action, GVariant *parameter, gpoi
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
   if (!spore_generator_apply(self->generator, &error)) spore_window_failed(self, error);
+}
+
+static void act_make_labels(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_generator_make(((SporeWindow *)data)->generator);
 }
 
 static void act_cancel_job(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -325,9 +330,13 @@ void spore_window_set_generator(SporeWindow *self) {
 
 void spore_window_add_generator_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
-      {"apply-generated", act_apply_generated},    {"cancel-job", act_cancel_job},
-      {"preview-labels", act_preview_labels, "s"}, {"preview-labels-dialog", act_preview_labels_dialog},
-      {"automatic-places", act_automatic_places},  {"pick-places", NULL, NULL, "false", change_pick_places},
+      {"apply-generated", act_apply_generated},
+      {"cancel-job", act_cancel_job},
+      {"preview-labels", act_preview_labels, "s"},
+      {"preview-labels-dialog", act_preview_labels_dialog},
+      {"make-labels", act_make_labels},
+      {"automatic-places", act_automatic_places},
+      {"pick-places", NULL, NULL, "false", change_pick_places},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {

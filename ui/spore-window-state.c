@@ -174,6 +174,8 @@ static void update_generator(SporeWindow *self, gboolean bodies) {
   set_enabled(self, "preview-labels-dialog", !self->job);
   set_enabled(self, "pick-places", spore_window_picks_places(self));
   set_enabled(self, "automatic-places", spore_window_picks_places(self));
+  set_enabled(self, "make-labels",
+              spore_generator_get_result(self->generator) && spore_generator_get_options(self->generator)->listing);
   set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
   set_enabled(self, "cancel-job",
               self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player));

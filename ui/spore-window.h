@@ -12,8 +12,8 @@
  *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
  *               remove-region [s path]
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
- *               surface; preview-labels [s path], preview-labels-dialog; pick-places (state), automatic-places;
- *               apply-generated, cancel-job
+ *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
+ *               automatic-places; apply-generated, cancel-job
  *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
  *               measure-mapping: of the selected body
  *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in

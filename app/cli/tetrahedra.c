@@ -281,7 +281,8 @@ static const SporeReportMember members[] = {
     {"seconds", N_("that it took")},
     {"shared_faces", N_("of a label map: between two organs")},
     {"labels",
-     N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
+     N_("of a label map, of each organ: label, name, cells, share (of all cells), volume_m3, voxel_volume_m3, "
+        "volume_change, "
         "min_dihedral_deg, cut; with --list: label, name, named (file, sidecar, guessed), voxels, volume_m3, size_m "
         "(along the map's axes), cut (sides of the volume that it reaches: i- i+ j- j+ k- k+)")},
     {"surroundings",

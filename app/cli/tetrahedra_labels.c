@@ -84,6 +84,7 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     spore_cli_count(cli, "label", figures->label);
     spore_cli_text(cli, "name", name);
     spore_cli_count(cli, "cells", (gint64)figures->cells);
+    spore_cli_number(cli, "share", (double)figures->cells / (double)mesh->tetrahedron_count);
     spore_cli_number(cli, "volume_m3", figures->volume);
     spore_cli_number(cli, "voxel_volume_m3", figures->voxel_volume);
     spore_cli_number(cli, "volume_change", change);
@@ -91,8 +92,9 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     spore_cli_report_sides(cli, entry);
     spore_cli_close(cli);
     if (figures->cells)
-      spore_cli_say(cli, _("  %s: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees"), name,
-                    figures->cells, 1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
+      spore_cli_say(cli, _("  %s: %zu cells (%.1f %%), %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees"),
+                    name, figures->cells, 100 * (double)figures->cells / (double)mesh->tetrahedron_count,
+                    1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
     else spore_cli_say(cli, _("  %s: finer than the cells, it has none; ask for more or smaller cells"), name);
     spore_cli_say_sides(cli, entry);
     spore_cli_say(cli, "\n");

@@ -6,8 +6,6 @@
 #include "app/cli/tetrahedra_list.h"
 #include "core/base/profile.h"
 
-static void clear(gpointer data) { spore_triangle_mesh_clear(&((SporeLabelSurrounding *)data)->surface.mesh); }
-
 static gboolean is_chosen(const GArray *chosen, guint16 label) {
   for (guint i = 0; i < chosen->len; i++)
     if (g_array_index(chosen, guint16, i) == label) return TRUE;
@@ -16,13 +14,14 @@ static gboolean is_chosen(const GArray *chosen, guint16 label) {
 
 /* The labels that are not chosen, without their surfaces yet. */
 static GArray *rest_of(const SporeLabelSurvey *survey, const GArray *chosen) {
-  GArray *rest = g_array_new(FALSE, TRUE, sizeof(SporeLabelSurrounding));
-  g_array_set_clear_func(rest, clear);
+  GArray *rest = spore_label_surroundings_new();
   for (guint i = 0; i < survey->entries->len; i++) {
     const SporeLabelEntry *entry = &g_array_index(survey->entries, SporeLabelEntry, i);
-    const SporeLabelSurrounding one = {
-        .surface = {.label = entry->label}, .name = entry->name, .guessed = entry->naming == SPORE_LABEL_GUESSED};
-    if (!is_chosen(chosen, entry->label)) g_array_append_val(rest, one);
+    if (is_chosen(chosen, entry->label)) continue;
+    const SporeLabelSurrounding one = {.surface = {.label = entry->label},
+                                       .name = g_strdup(entry->name),
+                                       .guessed = entry->naming == SPORE_LABEL_GUESSED};
+    g_array_append_val(rest, one);
   }
   return rest;
 }
@@ -30,15 +29,8 @@ static GArray *rest_of(const SporeLabelSurvey *survey, const GArray *chosen) {
 GArray *spore_cli_surroundings(SporeCli *cli, const SporeLabelMap *map, const SporeLabelSurvey *survey,
                                const GArray *chosen, GError **error) {
   g_autoptr(GArray) rest = rest_of(survey, chosen);
-  g_autofree SporeLabelSurface *surfaces = g_new0(SporeLabelSurface, rest->len);
-  SporeError failure = SPORE_ERROR_INIT;
   const guint64 started = spore_clock_ns();
-  for (guint i = 0; i < rest->len; i++) surfaces[i].label = g_array_index(rest, SporeLabelSurrounding, i).surface.label;
-  if (!spore_label_surfaces(map, surfaces, rest->len, spore_cli_progress(cli), &failure)) {
-    spore_error_propagate(&failure, error);
-    return NULL;
-  }
-  for (guint i = 0; i < rest->len; i++) g_array_index(rest, SporeLabelSurrounding, i).surface = surfaces[i];
+  if (!spore_label_surroundings_make(rest, map, spore_cli_progress(cli), error)) return NULL;
   const double seconds = 1e-9 * (double)(spore_clock_ns() - started);
   spore_cli_number(cli, "surroundings_seconds", seconds);
   spore_cli_say(cli, _("%u surroundings, %.1f s\n"), rest->len, seconds);

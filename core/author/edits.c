@@ -234,12 +234,12 @@ SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
 /* Pin. */
 
 /* The vertex that lies farthest behind and below (organs hang on the body wall there), and the size of the mesh. */
-static SporeVec3 hold_point(const SporeTriangleMesh *mesh, SporePose pose, double *extent) {
+static SporeVec3 hold_point(const double *vertices, gsize count, SporePose pose, double *extent) {
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   SporeVec3 best = {0, 0, 0};
   double least = HUGE_VAL;
-  for (gsize i = 0; i < mesh->vertex_count; i++) {
-    SporeVec3 p = spore_pose_apply(pose, spore_vec3_load(mesh->vertices + 3 * i));
+  for (gsize i = 0; i < count; i++) {
+    SporeVec3 p = spore_pose_apply(pose, spore_vec3_load(vertices + 3 * i));
     grow(lower, upper, p, 0);
     if (p.y + p.z >= least) continue;
     least = p.y + p.z;
@@ -262,10 +262,20 @@ static SporeObject *insert_pin(SporeDocument *document, SporeObject *body, Spore
   return done ? pin : NULL;
 }
 
+/* Vertices of the mesh that the body shows, else of its cells. NULL with an error: it has neither. Borrowed. */
+static const double *vertices_of(SporeDocument *document, SporeObject *body, gsize *count, GError **error) {
+  SporeObject *cells = spore_edit_used_asset(document, body, "mechanical", "geometry", "tetrahedra");
+  SporeObject *shown = spore_edit_visual_mesh(document, body, cells ? NULL : error);
+  const SporeTriangleMesh *mesh = shown ? spore_document_mesh(document, shown, error) : NULL;
+  const SporeTetrahedralMesh *solid = cells && !shown ? spore_document_tetrahedra(document, cells, error) : NULL;
+  *count = mesh ? mesh->vertex_count : solid ? solid->vertex_count : 0;
+  return mesh ? mesh->vertices : solid ? solid->vertices : NULL;
+}
+
 SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error) {
-  SporeObject *asset = spore_edit_visual_mesh(document, body, error);
-  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
-  if (!mesh) return NULL;
+  gsize count;
+  const double *vertices = vertices_of(document, body, &count, error);
+  if (!vertices) return NULL;
   if ((SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE) {
     g_autofree char *path = spore_object_path(body);
     spore_error_raise(error, SPORE_ERROR_INPUT, path,
@@ -274,11 +284,19 @@ SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GErr
     return NULL;
   }
   double extent;
-  SporeVec3 point = hold_point(mesh, spore_body_pose(body), &extent);
+  SporeVec3 point = hold_point(vertices, count, spore_body_pose(body), &extent);
   spore_document_begin(document, _("Hold organ"));
   SporeObject *pin = insert_pin(document, body, point, PIN_PART * extent, error);
   spore_edit_finish(document, pin != NULL);
   return pin;
+}
+
+gboolean spore_edit_set_colour(SporeDocument *document, SporeObject *body, const double colour[3], GError **error) {
+  char one[3][G_ASCII_DTOSTR_BUF_SIZE];
+  for (int k = 0; k < 3; k++) g_ascii_formatd(one[k], sizeof one[k], "%.3f", colour[k]);
+  g_autofree char *text = g_strjoin(" ", one[0], one[1], one[2], NULL);
+  SporeObject *visual = spore_edit_child_or_new(document, body, "visual", error);
+  return visual && spore_document_set_text(document, visual, "colour", text, error);
 }
 
 /* By path. */

@@ -147,6 +147,7 @@ static void clear_work(gpointer data) {
   spore_spheres_quality_clear(&work->spheres_quality);
   spore_tetrahedral_mesh_clear(&work->tetrahedra);
   g_clear_pointer(&work->label_report.labels, g_array_unref);
+  g_clear_pointer(&work->surroundings, g_array_unref);
   g_clear_pointer(&work->options.labels, spore_label_source_unref);
   spore_curve_clear(&work->curve);
   spore_curve_clear(&work->root);

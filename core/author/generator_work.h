@@ -25,16 +25,16 @@ typedef struct SporeGenerateOptions {
     SporeSpheresFields spheres;
     SporeTetrahedraFields tetrahedra;
     SporeCurveFields curve;
-    SporeMeshFields surface;                      /* of a sheet too */
-    char room[SPORE_GENERATOR_FIELDS];            /* of others */
-  } fields;                                       /* of the asset of that kind */
-  int purpose;                                    /* what becomes of the result, of the kind's */
-  SporeLabelSource *labels;                       /* of LABELS; borrowed */
-  guint64 unwanted[SPORE_LABEL_SOURCE_MOST / 64]; /* bits: its labels that are left out */
+    SporeMeshFields surface;           /* of a sheet too */
+    char room[SPORE_GENERATOR_FIELDS]; /* of others */
+  } fields;                            /* of the asset of that kind */
+  int purpose;                         /* what becomes of the result, of the kind's */
+  SporeLabelSource *labels;            /* of LABELS; borrowed */
+  /* Bits: its labels that are not meshed, and those of them that become surfaces around the others. */
+  guint64 unwanted[SPORE_LABEL_SOURCE_MOST / 64], around[SPORE_LABEL_SOURCE_MOST / 64];
+  gboolean listing; /* of LABELS: the map is read alone, and nothing is made yet */
+  gboolean chosen;  /* of LABELS: what becomes of the labels was proposed, or said */
 } SporeGenerateOptions;
-/* Whether the i-th label of the options is to be meshed. */
-gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i);
-void spore_generate_want_label(SporeGenerateOptions *options, gsize i, gboolean wanted);
 /* The asset of the body that a generator of this kind makes, or NULL. */
 SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
 /* As spore_edit_generator_source says. */
@@ -70,6 +70,7 @@ struct SporeGenerateWork {
   SporeTetrahedralMesh tetrahedra;         /* out */
   SporeTetrahedraReport tetrahedra_report; /* out */
   SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */
+  GArray *surroundings;                    /* out, of LABELS: of SporeLabelSurrounding; NULL: none */
   SporeCurve curve;                        /* out */
   SporeCentrelineReport curve_report;      /* out */
   SporeCurve root;                         /* out: of the mesentery of an intestine along the curve; empty: none */

@@ -3,6 +3,7 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
+#include "core/author/anatomy.h"
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 
@@ -104,8 +105,10 @@ static gboolean add_organ(SporeDocument *document, const SporeLabelBodies *organ
   const SporeObject *bodies = spore_document_section(document, "bodies");
   const guint before = spore_object_child_count(bodies);
   gboolean done = add(document, name, &part, from, TRUE, made, error);
-  if (done && organs->guessed && organs->guessed[i] && spore_object_child_count(bodies) > before)
+  const gboolean is_new = done && spore_object_child_count(bodies) > before;
+  if (is_new && organs->guessed && organs->guessed[i])
     done = spore_document_set_text(document, *made, "name_guessed", "true", error);
+  if (done && is_new) done = spore_edit_use_anatomy(document, *made, organs->names[i], organs->labels[i], error);
   g_free(part.vertices);
   g_free(part.tetrahedra);
   return done;

@@ -6,12 +6,18 @@
 #include "core/author/organ_import.h"
 #include "core/io/label_survey.h"
 
+/* First and last voxel of a label along each of the map's axes. */
+typedef struct Box {
+  guint32 first[3], last[3];
+} Box;
+
 struct SporeLabelSource {
   char *file;
   GBytes *content; /* NULL: not read yet, or too large to keep */
   GMutex mutex;
   SporeLabelMap map;
   GArray *labels, *voxels; /* NULL: not read yet */
+  Box *boxes;              /* one a label */
   GHashTable *names;       /* of label -> char * */
   gboolean guessed;        /* the names are guesses */
 };
@@ -41,6 +47,7 @@ static void clear(gpointer data) {
   spore_label_map_clear(&source->map);
   g_clear_pointer(&source->labels, g_array_unref);
   g_clear_pointer(&source->voxels, g_array_unref);
+  g_free(source->boxes);
   g_clear_pointer(&source->names, g_hash_table_unref);
 }
 
@@ -61,6 +68,31 @@ static void guess(SporeLabelSource *source) {
   source->names = spore_label_guess((const SporeLabelSize *)(gconstpointer)sizes->data, sizes->len);
 }
 
+/* Fills the boxes of the labels. */
+static gboolean measure_boxes(SporeLabelSource *source, const GArray *labels, const SporeProgress *progress,
+                              GError **error) {
+  const SporeLabelMap *map = &source->map;
+  g_autofree guint16 *place = g_new0(guint16, G_MAXUINT16 + 1);
+  source->boxes = g_new0(Box, labels->len);
+  for (guint i = 0; i < labels->len; i++) {
+    place[g_array_index(labels, guint16, i)] = (guint16)i;
+    for (int a = 0; a < 3; a++) source->boxes[i].first[a] = G_MAXUINT32;
+  }
+  SporeError failure = SPORE_ERROR_INIT;
+  gsize n = 0;
+  for (guint32 k = 0; k < map->size[2]; k++) {
+    if (!spore_progress_step(progress, 1, NULL, &failure)) return spore_error_propagate(&failure, error);
+    for (guint32 j = 0; j < map->size[1]; j++)
+      for (guint32 i = 0; i < map->size[0]; i++, n++) {
+        const guint32 at[3] = {i, j, k};
+        if (!map->labels[n]) continue;
+        Box *box = &source->boxes[place[map->labels[n]]];
+        for (int a = 0; a < 3; a++) box->first[a] = MIN(box->first[a], at[a]), box->last[a] = MAX(box->last[a], at[a]);
+      }
+  }
+  return TRUE;
+}
+
 static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
   g_autoptr(GBytes) given =
       source->content ? g_bytes_ref(source->content) : spore_import_read_content(source->file, error);
@@ -79,6 +111,11 @@ static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, 
     return spore_error_raise(error, SPORE_ERROR_INPUT, source->file,
                              _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
                              SPORE_LABEL_SOURCE_MOST);
+  }
+  if (!measure_boxes(source, labels, progress, error)) {
+    spore_label_map_clear(&source->map);
+    g_clear_pointer(&source->boxes, g_free);
+    return FALSE;
   }
   if (!source->content && size <= SPORE_LABEL_MAP_KEPT) source->content = g_bytes_ref(content);
   source->names = spore_label_map_names(bytes, size);
@@ -103,6 +140,14 @@ guint16 spore_label_source_label(const SporeLabelSource *source, gsize i) {
 
 double spore_label_source_volume(const SporeLabelSource *source, gsize i) {
   return (double)g_array_index(source->voxels, guint64, i) * spore_label_map_voxel_volume(&source->map);
+}
+
+void spore_label_source_size(const SporeLabelSource *source, gsize i, double size[3]) {
+  const double *axes = source->map.axes;
+  for (int a = 0; a < 3; a++) {
+    SporeVec3 step = spore_vec3(axes[a], axes[4 + a], axes[8 + a]);
+    size[a] = spore_vec3_length(step) * (double)(source->boxes[i].last[a] - source->boxes[i].first[a] + 1);
+  }
 }
 
 gboolean spore_label_source_is_guessed(const SporeLabelSource *source, gsize i) {

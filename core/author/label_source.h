@@ -25,6 +25,8 @@ const SporeLabelMap *spore_label_source_read(SporeLabelSource *source, const Spo
 gsize spore_label_source_count(const SporeLabelSource *source);
 guint16 spore_label_source_label(const SporeLabelSource *source, gsize i);
 double spore_label_source_volume(const SporeLabelSource *source, gsize i); /* m^3, of its voxels */
+/* Of the box of its voxels, along the map's axes, m. */
+void spore_label_source_size(const SporeLabelSource *source, gsize i, double size[3]);
 /* The name in the file, else one guessed by spore_label_guess, else "label 3", translated. g_free. */
 char *spore_label_source_name(const SporeLabelSource *source, gsize i);
 gboolean spore_label_source_is_guessed(const SporeLabelSource *source, gsize i);

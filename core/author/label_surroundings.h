@@ -7,9 +7,15 @@
 
 typedef struct SporeLabelSurrounding {
   SporeLabelSurface surface;
-  const char *name; /* of the body; borrowed */
+  char *name;       /* of the body */
   gboolean guessed; /* the name is a guess */
 } SporeLabelSurrounding;
+
+/* GArray of SporeLabelSurrounding, which frees surfaces and names. */
+GArray *spore_label_surroundings_new(void);
+/* Makes the surfaces of all of them. FALSE with an error: as spore_label_surfaces. */
+gboolean spore_label_surroundings_make(GArray *surroundings, const SporeLabelMap *map, const SporeProgress *progress,
+                                       GError **error);
 
 /* Adds an unmovable body for each surface, with a mesh that it shows. One step of undo. FALSE with an error: nothing is
  * added; cancelled, too. */

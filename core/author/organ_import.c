@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/author/edits.h"
 #include "core/base/memory.h"
 #include "core/generate/labels/labels.h"
 #include "core/io/mesh_import.h"
@@ -300,11 +301,7 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
 
 /* Draws the body in the colour that the file gives it. */
 static gboolean paint(SporeDocument *document, SporeObject *made, const SporeImportBody *body, GError **error) {
-  if (!body->coloured) return TRUE;
-  char one[3][G_ASCII_DTOSTR_BUF_SIZE];
-  for (int k = 0; k < 3; k++) g_ascii_formatd(one[k], sizeof one[k], "%.3f", body->colour[k]);
-  g_autofree char *colour = g_strjoin(" ", one[0], one[1], one[2], NULL);
-  return spore_document_set_text(document, spore_object_child_of(made, "visual"), "colour", colour, error);
+  return !body->coloured || spore_edit_set_colour(document, made, body->colour, error);
 }
 
 static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {

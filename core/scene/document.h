@@ -76,7 +76,7 @@ SporeObject *spore_document_insert(SporeDocument *document, SporeObject *parent,
 gboolean spore_document_remove(SporeDocument *document, SporeObject *object, GError **error);
 gboolean spore_document_move(SporeDocument *document, SporeObject *object, SporeObject *parent, guint index,
                              GError **error);
-/* Renames an object and every reference to it, as one undo step. */
+/* Renames an object and every reference to it, as one undo step. A name that was marked as a guess is one no more. */
 gboolean spore_document_rename(SporeDocument *document, SporeObject *object, const char *name, GError **error);
 
 /* Groups: everything between begin and end is one undo step named `label` (translated). Inside, several sets of the

@@ -174,6 +174,12 @@ static void follow_references(SporeObject *object, const SporeObject *renamed, c
     follow_references(spore_object_child(object, i), renamed, old, name);
 }
 
+/* A name that somebody gives is no guess any more. */
+static void confirm_name(SporeObject *object) {
+  int mark = spore_parameter_find(object->type->table, "name_guessed");
+  if (mark >= 0 && object->slots[mark].set) edit_property(object, (guint)mark, NULL);
+}
+
 gboolean spore_document_rename(SporeDocument *document, SporeObject *object, const char *name, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   int property = spore_object_name_property(object);
@@ -197,6 +203,7 @@ gboolean spore_document_rename(SporeDocument *document, SporeObject *object, con
   gboolean opened = open_step(document, _("Rename"));
   edit_property(object, (guint)property, &copy);
   follow_references(document->root, object, old, &object->slots[property].value);
+  confirm_name(object);
   close_step(document, opened);
   return TRUE;
 }

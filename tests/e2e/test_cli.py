@@ -423,7 +423,7 @@ def tetrahedra_of_a_label_map():
     for row in answer["labels"]:
         mine = [corners for corners, label in cells if label == row["label"]]
         volume = sum(volume_of(vertices, corners) for corners in mine)
-        assert len(mine) == row["cells"] and abs(volume / row["volume_m3"] - 1) < 1e-6
+        assert len(mine) == row["cells"] == round(row["share"] * answer["tetrahedra"]) and abs(volume / row["volume_m3"] - 1) < 1e-6
         assert abs(volume / 16 ** 3 / 1e-9 - 1) < 0.01 and abs(row["volume_change"]) < 0.01
     # Axes: i to the right, j to the front (SPORE's -z), k up; the middle of voxel (0, 0, 0) at (10, 20, 30) mm.
     for axis, (low, high) in enumerate(((13.5, 45.5), (31.75, 39.75), (-59, -27))):
@@ -533,6 +533,8 @@ def names_of_labels_are_guessed_where_a_common_set_holds_them_all():
     assert guesses() == 2
     spore("edit", "guessed.spore", "--set", "bodies/liver/name_guessed=false")
     assert guesses() == 1
+    spore("edit", "guessed.spore", "--set", "bodies/stomach/name=gaster")
+    assert guesses() == 0, "who renames it knows"
     file("numbers.json", '{"5": "liver"}')
     named = {r["label"]: r["named"] for r in report("tetrahedra", "numbers.nii", "--list")["labels"]}
     assert named[5] == "sidecar" and named[6] is None, named

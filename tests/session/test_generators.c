@@ -10,8 +10,10 @@
 #include "core/scene/generated.h"
 #include "models/registry.h"
 #include "ui/document/asset-readers.h"
+#include "core/author/anatomy.h"
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
+#include "core/author/label_choice.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-series.h"
 
@@ -296,11 +298,55 @@ static void test_stale_labels(Fixture *fixture, gconstpointer data) {
 
 static void test_wanted_labels(Fixture *fixture, gconstpointer data) {
   SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS};
-  spore_generate_want_label(&options, 511, FALSE);
-  spore_generate_want_label(&options, 64, FALSE);
-  spore_generate_want_label(&options, 64, TRUE);
+  spore_label_choose(&options, 511, SPORE_LABEL_LEFT_OUT);
+  spore_label_choose(&options, 64, SPORE_LABEL_LEFT_OUT);
+  spore_label_choose(&options, 64, SPORE_LABEL_SOFT);
+  spore_label_choose(&options, 63, SPORE_LABEL_LEFT_OUT);
+  spore_label_choose(&options, 63, SPORE_LABEL_AROUND);
   for (gsize i = 0; i < SPORE_LABEL_SOURCE_MOST; i++)
-    g_assert_cmpint(spore_generate_wants_label(&options, i), ==, i != 511);
+    g_assert_cmpint(spore_label_choice(&options, i), ==,
+                    i == 511  ? SPORE_LABEL_LEFT_OUT
+                    : i == 63 ? SPORE_LABEL_AROUND
+                              : SPORE_LABEL_SOFT);
+}
+
+/* What a name says counts from the beginning of one of its parts on. */
+static void test_anatomy(Fixture *fixture, gconstpointer data) {
+  static const struct {
+    const char *name, *material;
+  } names[] = {
+      {"liver", "liver"}, {"Kidney left", "kidney"}, {"liver_vessels", NULL}, {"hepatic artery", "hepatic_artery"},
+      {"delivery", NULL}, {"rib_left_4", NULL},      {"label_9", NULL},       {"small-bowel", "small_intestine"}};
+  double colour[3], other[3];
+  for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
+    g_assert_cmpstr(spore_anatomy_material(names[i].name), ==, names[i].material);
+  spore_anatomy_colour("rib_left_4", 1, colour);
+  spore_anatomy_colour("rib", 2, other);
+  g_assert_cmpmem(colour, sizeof colour, other, sizeof other);
+  spore_anatomy_colour("caribou", 2, other);
+  g_assert_cmpint(memcmp(colour, other, sizeof colour), !=, 0);
+  for (guint a = 1; a < 40; a++)
+    for (guint b = 1; b <= 8 && b < a; b++) {
+      spore_anatomy_colour("label", a, colour);
+      spore_anatomy_colour("label", a - b, other);
+      g_assert_cmpfloat(fabs(colour[0] - other[0]) + fabs(colour[1] - other[1]) + fabs(colour[2] - other[2]), >, 0.02);
+      for (int k = 0; k < 3; k++) g_assert_true(colour[k] >= 0 && colour[k] <= 1);
+    }
+}
+
+/* A name that somebody gives is a guess no more; in the same step, and other names stay guesses. */
+static void test_guessed_name(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *body = spore_document_insert(fixture->document, spore_document_section(fixture->document, "bodies"),
+                                            "body", "spleen", G_MAXUINT, &error);
+  g_assert_true(spore_document_set_text(fixture->document, body, "name_guessed", "true", &error));
+  g_assert_true(spore_document_rename(fixture->document, body, "spleen", &error)); /* the same: nothing is said */
+  g_assert_cmpfloat(spore_object_number(body, "name_guessed"), ==, 1);
+  g_assert_true(spore_document_rename(fixture->document, body, "kidney", &error));
+  g_assert_cmpfloat(spore_object_number(body, "name_guessed"), ==, 0);
+  spore_document_undo(fixture->document);
+  g_assert_cmpstr(spore_object_name(body), ==, "spleen");
+  g_assert_cmpfloat(spore_object_number(body, "name_guessed"), ==, 1);
 }
 
 /* Names that a file's header gives, told apart from what only looks like them. */
@@ -345,6 +391,8 @@ int main(int argc, char **argv) {
       {"linked-labels", test_linked_labels},
       {"stale-labels", test_stale_labels},
       {"wanted-labels", test_wanted_labels},
+      {"anatomy", test_anatomy},
+      {"guessed-name", test_guessed_name},
       {"label-names", test_label_names},
   };
   g_test_init(&argc, &argv, NULL);

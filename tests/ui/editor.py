@@ -230,6 +230,10 @@ class Editor:
         names = [menu.get_child_at_index(i).get_name() for i in range(menu.get_child_count())]
         self.atspi.Selection.select_child(combo, names.index(text))
 
+    def chosen(self, combo):
+        """The entry that a combo box shows."""
+        return self.atspi.Selection.get_selected_child(combo, 0).get_name()
+
     def row(self, name):
         """Outliner row of that name, or None."""
         return self.look("table cell", f"^{re.escape(name)}$")

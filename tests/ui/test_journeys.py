@@ -747,7 +747,7 @@ def surface_of_fewer_nodes():
 
 @check
 def organs_of_a_label_map():
-    """the organs of a label map are listed by name with their volumes, meshed together, left out by a click, and become bodies as one step."""
+    """the organs of a label map are listed by name with volume and size before any is meshed, chosen one by one, meshed together, and become bodies as one step."""
     size = (24, 12, 12)
     here = lambda i, j, k: (3 if i < 12 else 7) if 2 <= i < 22 and 2 <= j < 10 and 2 <= k < 10 else 0
     content = shapes.nrrd(size, shapes.labels(size, here), spacing=(2, 2, 2))
@@ -760,14 +760,18 @@ def organs_of_a_label_map():
         if "volumes" not in FEATURES:
             ui.wait(lambda: "this build of SPORE reads none" in (editor.message() or ""), "what is missing")
             return
-        editor.find("label", r"(?s)Shared faces: [1-9].*liver: \d+ cells, 5\.\d+ ml.*label 7: \d+ cells", 60)
-        check_box = editor.find("check box", r"^label 7, 5\.12 ml$", showing=False)
-        editor.find("check box", r"^liver, 5\.12 ml$", showing=False)
-        editor.press(check_box)
-        ui.wait(lambda: not editor.look("label", r"(?s)tetrahedra in.*label 7: "), "the organ to be left out", 60)
-        editor.find("label", r"(?s)tetrahedra in.*Shared faces: 0.*liver", 60)
-        editor.press(check_box)
-        editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
+        editor.find("label", r"(?s)^2 organs, 10\.2\d* ml in all", 60)
+        editor.find("label", r"^label 7, 5\.12 ml, 20 × 16 × 16 mm$", showing=False)
+        editor.find("label", r"^liver, 5\.12 ml, 20 × 16 × 16 mm$", showing=False)
+        use = editor.find("combo box", "^label 7$", showing=False)
+        assert [editor.chosen(editor.find("combo box", name, showing=False)) for name in ("^liver$", "^label 7$")] == ["Soft", "Around"]
+        editor.press(editor.find("push button", "^Mesh$"))
+        editor.find("label", r"(?s)tetrahedra in.*Shared faces: 0.*liver: \d+ cells \(100 %\).*Around them: 1 unmovable", 60)
+        editor.choose(use, "Soft")
+        editor.find("label", r"(?s)^2 organs, ", 60)
+        ui.wait(lambda: editor.enabled("make-labels"), "the list")
+        editor.press(editor.find("push button", "^Mesh$"))
+        editor.find("label", r"(?s)Shared faces: [1-9].*liver: \d+ cells \(\d+ %\), 5\.\d+ ml.*label 7: \d+ cells", 60)
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
         editor.press(editor.find("radio button", "^Histogram$"))
         editor.find("drawing area", "Histogram of Least angle: mean .*°")
@@ -786,9 +790,9 @@ def organs_of_a_label_map():
         editor.act("select", "s", "bodies/liver")
         editor.find("label", "Stale: the label map has changed since", showing=False)
         editor.act("preview-tetrahedra", "u", 0)
-        editor.find("label", r"(?s)tetrahedra in.*liver: \d+ cells.*label 7: ", 60)
-        editor.act("apply-generated")
-        ui.wait(lambda: not editor.look("label", "Stale: ", showing=False), "the organs to be fresh")
+        editor.find("label", r"(?s)^2 organs, ", 60)
+        editor.act("apply-generated")  # of both: the scene has both
+        ui.wait(lambda: not editor.look("label", "Stale: ", showing=False), "the organs to be fresh", 60)
         assert saved(editor, "organs").count("<body ") == 2
         editor.act("undo")
         editor.act("undo")
@@ -797,11 +801,55 @@ def organs_of_a_label_map():
         editor.act("import-dialog-with", "as", [str(path)])
         editor.find("label", "^2 bodies")
         editor.press(editor.find("push button", "^Tetrahedra…$"))
-        editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
+        editor.find("label", r"(?s)^2 organs, ", 60)
+        editor.choose(editor.find("combo box", "^label 7$", showing=False), "Soft")
         editor.choose(editor.find("combo box", "^Make$", showing=False), "One body")
+        ui.wait(lambda: editor.enabled("apply-generated"), "the list")
         editor.act("apply-generated")
-        ui.wait(lambda: editor.row("organs"), "one body")
+        ui.wait(lambda: editor.row("organs"), "one body", 60)
         assert saved(editor, "one").count("<tetrahedra ") == 1
+
+
+ABDOMEN = {  # of a label map: middle and half axes, voxels of 4 mm
+    "liver": ((18, 24, 28), (13, 14, 12)), "spleen": ((50, 30, 30), (7, 8, 8)), "stomach": ((38, 30, 32), (7, 7, 8)),
+    "kidney_left": ((46, 14, 20), (5, 5, 7)), "kidney_right": ((22, 8, 12), (5, 5, 7)), "gallbladder": ((30, 14, 26), (3, 4, 3)),
+    "vertebrae_L1": ((34, 6, 24), (4, 4, 14)), "aorta": ((34, 14, 24), (2, 2, 22)), "colon": ((32, 40, 10), (20, 4, 5))}
+
+
+@check
+def label_map_to_a_scene_that_plays():
+    """nine organs of a label map: few are proposed soft and the rest around them, in anatomical colours; applied, held, and played by buttons."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without readers of label maps")
+    size, names = (64, 48, 48), list(ABDOMEN)
+    inside = lambda at, ball: sum(((x - c) / r) ** 2 for x, c, r in zip(at, *ball)) <= 1
+    here = lambda *at: next((n + 1 for n, ball in enumerate(ABDOMEN.values()) if inside(at, ball)), 0)
+    table = "".join(f"Segment{n}_Name:={name}\nSegment{n}_LabelValue:={n + 1}\n" for n, name in enumerate(names))
+    path = folder("meshes") / "abdomen.nrrd"
+    path.write_bytes(shapes.nrrd(size, shapes.labels(size, here), spacing=(4, 4, 4)).replace(b"test\n", b"test\n" + table.encode()))
+    with start() as editor:
+        editor.act("import-dialog-with", "as", [str(path)])
+        editor.press(editor.find("push button", "^Tetrahedra…$", 60))
+        editor.find("label", "(?s)^9 organs, .*Say in the list", 60)
+        assert not editor.row("liver")
+        choices = {name: editor.chosen(editor.find("combo box", f"^{name}$", showing=False)) for name in names}
+        assert [name for name in names if choices[name] == "Soft"] == ["liver", "spleen", "stomach"], choices
+        assert sorted(set(choices.values())) == ["Around", "Soft"], choices
+        editor.choose(editor.find("combo box", "^aorta$", showing=False), "Leave out")
+        editor.find("label", "(?s)^9 organs, ", 60)
+        editor.set_number(editor.find("spin button", "^Tetrahedra$", showing=False), 600)
+        ui.wait(lambda: editor.enabled("apply-generated"), "the list")
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("stomach") and editor.row("colon"), "the organs", 60)
+        text = saved(editor, "abdomen")
+        assert text.count("<body ") == 8 and text.count('role="unmovable"') == 5 and 'name="aorta"' not in text, text
+        assert len(set(re.findall('colour="(.*?)"', text))) == 7 and 'material="spleen"' in text, text
+        assert all(f'<pin name="{name}_pin" body="{name}"' in text for name in ("liver", "spleen", "stomach")), text
+        editor.press(editor.find("push button", "^Play$", showing=False))
+        ui.wait(lambda: (editor.time_s() or 0) > 0.05, "time to advance", 60)
+        editor.act("pause")
+        undo_all(editor)
+        ui.wait(lambda: not editor.row("liver"), "all to go")
 
 
 @check

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/author/generated_edits.h"
+#include "core/author/label_surroundings.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/mesh/bvh.h"
 #include "core/scene/generated.h"
@@ -230,14 +231,16 @@ static const SporeGenerateType curve_type = {
 
 /* A surface of fewer, well-shaped triangles, and hollow organs with a wall. */
 
-/* The edges of a mesh, drawn over the coloured surface. */
+/* Adds the edges of a mesh, drawn over the coloured surface. Other lines are added after all edges. */
 static void show_edges(const SporeTriangleMesh *mesh, SporeStageCandidate *candidate) {
-  candidate->edge_count = candidate->line_count = 3 * mesh->triangle_count;
-  candidate->lines = g_new(double, 6 * candidate->line_count);
-  for (gsize i = 0; i < candidate->line_count; i++) {
-    const guint32 *corners = mesh->triangles + 3 * (i / 3);
+  gsize before = candidate->line_count;
+  candidate->edge_count = candidate->line_count = before + 3 * mesh->triangle_count;
+  candidate->lines = g_renew(double, candidate->lines, 6 * candidate->line_count);
+  for (gsize h = 0; h < 3 * mesh->triangle_count; h++) {
+    const guint32 *corners = mesh->triangles + 3 * (h / 3);
     for (gsize k = 0; k < 2; k++)
-      memcpy(candidate->lines + 6 * i + 3 * k, mesh->vertices + 3 * corners[(i + k) % 3], 3 * sizeof(double));
+      memcpy(candidate->lines + 6 * (before + h) + 3 * k, mesh->vertices + 3 * corners[(h + k) % 3],
+             3 * sizeof(double));
   }
 }
 
@@ -360,9 +363,16 @@ static void measure_organs(const SporeGenerateWork *work, SporeQuality *quality)
   for (gsize i = 0; i < quality->count; i++) quality->values[i] = place_of(work, work->tetrahedra.labels[i]) + 1;
 }
 
+/* The soft organs, among the edges of what stands around them. */
+static void show_organs(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  show_tetrahedra(work, places, candidate);
+  for (guint i = 0; work->surroundings && i < work->surroundings->len; i++)
+    show_edges(&g_array_index(work->surroundings, SporeLabelSurrounding, i).surface.mesh, candidate);
+}
+
 static const SporeGenerateQuality labels_qualities[] = {
-    {N_("Organ"), "", TRUE, measure_organs, show_tetrahedra},
-    {N_("Least angle"), "°", FALSE, measure_dihedral_angles, show_tetrahedra},
+    {N_("Organ"), "", TRUE, measure_organs, show_organs},
+    {N_("Least angle"), "°", FALSE, measure_dihedral_angles, show_organs},
 };
 
 static const SporeGenerateType labels_type = {

@@ -5,6 +5,7 @@
 
 #include "core/scene/generated.h"
 #include "core/author/edits.h"
+#include "core/author/label_choice.h"
 #include "ui/jobs/generate-types.h"
 
 #define SETTLE_MS 250 /* options that change faster make one run */
@@ -48,10 +49,10 @@ static void drop(SporeGenerator *self) {
   self->active = self->apply_when_done = FALSE;
 }
 
-/* Other places may do better, so that the preview waits for them. */
+/* Other places, or another choice of labels, may do better, so that the preview waits for them. */
 static void fail(SporeGenerator *self, const GError *error) {
   gboolean cancelled = g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
-  gboolean goes_on = !cancelled && spore_generators[self->options.kind]->places;
+  gboolean goes_on = !cancelled && (spore_generators[self->options.kind]->places || self->options.chosen);
   if (goes_on) drop_result(self);
   else drop(self);
   self->apply_when_done = FALSE;
@@ -77,6 +78,10 @@ static void done(SporeJob *job, gpointer data, const GError *error, gpointer own
     return;
   }
   self->result = spore_generate_work_ref(data);
+  if (self->options.labels && !self->options.chosen) {
+    spore_label_propose(&self->options, spore_editor_document_get(self->document));
+    self->result->options = self->options;
+  }
   if (!self->apply_when_done) tell(self);
   else if (!spore_generator_apply(self, &refused)) fail(self, refused);
 }
@@ -143,10 +148,22 @@ gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const 
   return TRUE;
 }
 
+void spore_generator_make(SporeGenerator *self) {
+  if (!self->active || !self->options.listing) return;
+  drop_result(self);
+  self->options.listing = FALSE;
+  start(self);
+}
+
 void spore_generator_apply_when_done(SporeGenerator *self) { self->apply_when_done = TRUE; }
 
 gboolean spore_generator_apply(SporeGenerator *self, GError **error) {
   if (!self->result) return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("there is no result yet; wait for it"));
+  if (self->options.listing) {
+    spore_generator_make(self);
+    self->apply_when_done = TRUE;
+    return TRUE;
+  }
   if (!spore_generate_work_apply(self->result, spore_editor_document_get(self->document), error)) return FALSE;
   g_signal_emit(self, signals[APPLIED], 0);
   drop(self);

@@ -4,7 +4,7 @@
  * Signals
  *   changed ()           anything below may have; on the GTK thread, at most ten times a second while it works
  *   failed (s message)   there is no result; not when it was cancelled. The preview has ended, unless its generator has
- *                        places to pick, which may be picked elsewhere then
+ *                        places to pick or labels to choose, which may be chosen otherwise then
  *   applied ()           the document has the result, which can still be read during the call                      */
 #ifndef SPORE_UI_JOBS_SPORE_GENERATOR_H
 #define SPORE_UI_JOBS_SPORE_GENERATOR_H
@@ -23,10 +23,12 @@ SporeGenerator *spore_generator_new(SporeEditorDocument *document);
  * FALSE: the body shows no mesh, or its asset is frozen. body NULL: the options name a file. */
 gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
                                  GError **error);
+/* Goes on from a label map that was only listed: what was chosen is made. */
+void spore_generator_make(SporeGenerator *self);
 /* Applies the result as soon as there is one. */
 void spore_generator_apply_when_done(SporeGenerator *self);
-/* Gives the result to the body, as one undo step, and ends the preview. FALSE: there is no result yet, or it does not
- * fit the document any more; the preview goes on. */
+/* Gives the result to the body, as one undo step, and ends the preview. What was only listed is made first. FALSE:
+ * there is no result yet, or it does not fit the document any more; the preview goes on. */
 gboolean spore_generator_apply(SporeGenerator *self, GError **error);
 /* Ends the preview at once; the document stays as it was. */
 void spore_generator_cancel(SporeGenerator *self);

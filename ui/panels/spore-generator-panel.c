@@ -19,7 +19,7 @@
 struct _SporeGeneratorPanel {
   GtkBox parent;
   GtkWidget *empty, *content, *columns, *title, *rows, *shown, *inside, *cut, *axis, *apart, *facts, *apply, *cancel,
-      *histogram, *numbers, *measure, *plot, *places, *pick, *automatic, *organs, *labels;
+      *histogram, *numbers, *measure, *plot, *places, *pick, *automatic, *make, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
   gboolean filling;
@@ -44,6 +44,7 @@ static void options_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
   SporeGenerateOptions options = *spore_generator_get_options(self->generator);
   spore_generator_rows_get_options(SPORE_GENERATOR_ROWS(self->rows), &options);
   if (options.labels) spore_label_list_get_options(SPORE_LABEL_LIST(self->labels), &options);
+  options.listing = options.labels != NULL; /* made when they are all chosen */
   preview(self, &options);
 }
 
@@ -61,8 +62,8 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
   spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), &table, options);
   gtk_widget_set_visible(self->numbers, type->counts != NULL);
   show_places(self, spore_generators[options->kind]->places);
-  /* The organs of a label map are known once the map was read. */
-  gtk_widget_set_visible(self->organs, options->labels && spore_generator_get_result(self->generator));
+  gtk_widget_set_visible(self->make, options->labels != NULL);
+  gtk_widget_set_visible(self->organs, options->chosen); /* known once the map was read */
   if (gtk_widget_get_visible(self->organs)) spore_label_list_set_options(SPORE_LABEL_LIST(self->labels), options);
   if (!type->counts) return;
   gsize last = 0;
@@ -116,7 +117,7 @@ static void show_result(SporeGeneratorPanel *self) {
   g_autofree char *facts =
       work ? spore_generators[work->options.kind]->facts(work) : g_strdup(refusal ? refusal : _("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
-  gtk_widget_set_visible(self->histogram, !quality.names);
+  gtk_widget_set_visible(self->histogram, !quality.names && !(work && work->options.listing));
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
   spore_quality_clear(&quality);
 }
@@ -223,6 +224,7 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, places);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, pick);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, automatic);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, make);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, organs);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, labels);
 }

@@ -1,7 +1,7 @@
-/* The organs of a label map with their volumes, and which of them are wanted.
+/* The organs of a label map with colour, name, volume and size, and what becomes of each.
  *
  * Signals
- *   changed ()   the user took one in or left it out                                                                 */
+ *   changed ()   the user chose otherwise for one */
 #ifndef SPORE_UI_PANELS_SPORE_LABEL_LIST_H
 #define SPORE_UI_PANELS_SPORE_LABEL_LIST_H
 

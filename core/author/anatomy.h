@@ -1,0 +1,18 @@
+/* What the name of an organ says: the colour that it is drawn in, and its tissue. */
+#ifndef SPORE_AUTHOR_ANATOMY_H
+#define SPORE_AUTHOR_ANATOMY_H
+
+#include "core/scene/document.h"
+
+/* Red, green and blue as in sRGB, 0 to 1: as atlases paint that organ; of names that say nothing, one of many muted
+ * colours, by the number. */
+void spore_anatomy_colour(const char *name, guint number, double colour[3]);
+/* A material of the scene, by name; NULL: the name says none. */
+const char *spore_anatomy_material(const char *name);
+
+/* Gives a body, made under that name, its colour and, where it has a mechanical unit, its material. Call it inside a
+ * group. */
+gboolean spore_edit_use_anatomy(SporeDocument *document, SporeObject *body, const char *name, guint number,
+                                GError **error);
+
+#endif
