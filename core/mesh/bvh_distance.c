@@ -81,6 +81,30 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
   return spore_bvh_distance_below(bvh, p, HUGE_VAL, nearest, triangle);
 }
 
+size_t spore_bvh_near(const SporeBvh *bvh, SporeVec3 p, double within, SporeBvhNear *near, size_t most) {
+  assert(within >= 0);
+  uint32_t stack[SPORE_BVH_DEPTH];
+  int waiting = 0;
+  size_t count = 0;
+  double x[3] = {p.x, p.y, p.z};
+  stack[waiting++] = 0;
+  while (waiting) {
+    uint32_t index = stack[--waiting];
+    const SporeBvhNode *node = bvh->nodes + index;
+    if (box_distance_squared(node, x) > within * within) continue;
+    for (uint32_t i = node->first; i < node->first + node->count; i++) {
+      double distance = spore_vec3_distance(p, spore_triangle_nearest(p, bvh->corners + 9 * (size_t)i));
+      if (distance > within) continue;
+      if (count == most) return most + 1;
+      near[count++] = (SporeBvhNear){distance, i};
+    }
+    if (node->count) continue;
+    stack[waiting++] = node->first;
+    stack[waiting++] = index + 1;
+  }
+  return count;
+}
+
 /* Nearest and farthest parameter of the ray inside the box; false: the ray misses the box. */
 static bool ray_box(const SporeBvhNode *node, const double p[3], const double d[3], double limit, double *enter) {
   double low = 0, high = limit;

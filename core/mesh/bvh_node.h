@@ -33,4 +33,11 @@ struct SporeBvh {
 /* As spore_bvh_distance, but no more than `below` (m): a search for farther points is cut off. */
 double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest, uint32_t *triangle);
 
+typedef struct SporeBvhNear {
+  double distance; /* m */
+  uint32_t place;  /* of the triangle, in the order of the leaves */
+} SporeBvhNear;
+/* Triangles no farther from p than `within` (m), and how many there are. Above `most` the search ends: most + 1. */
+size_t spore_bvh_near(const SporeBvh *bvh, SporeVec3 p, double within, SporeBvhNear *near, size_t most);
+
 #endif

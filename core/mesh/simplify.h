@@ -3,7 +3,7 @@
 #define SPORE_MESH_SIMPLIFY_H
 
 #include "core/base/progress.h"
-#include "core/mesh/bvh.h"
+#include "core/mesh/depth_cells.h"
 #include "core/mesh/mesh.h"
 
 typedef struct SporeSimplifyOptions {
@@ -37,7 +37,7 @@ bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimp
 /* The surface that is meant lies at a depth (m) in another; how far (m) off it triangles may come to be where they were
  * not so far before, at points `spacing` (m) apart. */
 typedef struct SporeSurfaceLimit {
-  const SporeBvh *bvh;
+  SporeDepthCells *cells; /* of the other */
   double depth, most, spacing;
   double (*off)(void *data, SporeVec3 place); /* where there is one, it says how far off a place is, and there is no
                                                  other surface */

@@ -30,7 +30,7 @@ static double off_at(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[
   double square = mean * mean - 2 * spread, below = square > 0 ? (mean + sqrt(square)) / 2 : 0;
   bool near = above <= limit->depth + limit->most && below >= limit->depth - limit->most;
   if (near && least > mean - below) return 0; /* neither the smaller root nor the other side of the surface applies */
-  return fabs(limit->depth - spore_bvh_depth_beside(limit->bvh, place, beside).depth);
+  return fabs(limit->depth - spore_depth_cells_beside(limit->cells, place, beside).depth);
 }
 
 /* How far a triangle is off, in its inside and on its first side. Above `enough` the search may end early. */
@@ -50,7 +50,7 @@ static double off_triangle(const SporeSurfaceLimit *limit, const SporeBvhKnown c
 }
 
 static SporeBvhKnown know(const SporeSurfaceLimit *limit, SporeVec3 place, const SporeBvhKnown *beside) {
-  if (!limit->off) return spore_bvh_depth_beside(limit->bvh, place, beside);
+  if (!limit->off) return spore_depth_cells_beside(limit->cells, place, beside);
   return (SporeBvhKnown){.place = place, .depth = limit->depth - limit->off(limit->data, place)};
 }
 

@@ -118,6 +118,34 @@ static void test_ring_and_pair(void) {
 
 static bool refuse(void *data, double fraction, const char *stage) { return false; }
 
+/* Whichever allocation fails, the wall is the same, or there is none for lack of memory. */
+static void without_memory(const SporeTriangleMesh *ball) {
+  SporeTriangleMesh whole, inner;
+  SporeWallReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  uint64_t before = spore_allocation_count();
+  g_assert_true(spore_wall_inner(ball, 0.008, 1, &whole, &report, NULL, &error));
+  uint64_t all = spore_allocation_count() - before, failed = 0;
+  for (uint64_t n = 1; n <= all; n += 1 + n / 3) {
+    SporeError fault = SPORE_ERROR_INIT;
+    spore_allocation_fail_at(n);
+    bool made = spore_wall_inner(ball, 0.008, 1, &inner, &report, NULL, &fault);
+    spore_allocation_fail_at(0);
+    if (made) {
+      g_assert_cmpmem(inner.vertices, 3 * inner.vertex_count * sizeof(double), whole.vertices,
+                      3 * whole.vertex_count * sizeof(double));
+      spore_triangle_mesh_clear(&inner);
+      continue;
+    }
+    g_assert_cmpint(fault.code, ==, SPORE_ERROR_MEMORY);
+    failed++;
+  }
+  g_test_message("%" G_GUINT64_FORMAT " allocations; without one of them no wall %" G_GUINT64_FORMAT " times", all,
+                 failed);
+  g_assert_cmpuint(failed, >, 3);
+  spore_triangle_mesh_clear(&whole);
+}
+
 /* Too thick, open, cancelled, no memory. */
 static void test_refused(void) {
   SporeTriangleMesh ball, inner;
@@ -129,15 +157,7 @@ static void test_refused(void) {
   g_assert_nonnull(strstr(error.message, "leaves no lumen: the deepest place found lies 0.01"));
   g_assert_false(spore_wall_inner(&ball, 0.004, 0, &inner, &report, &progress, &stopped));
   g_assert_cmpint(stopped.code, ==, SPORE_ERROR_CANCELLED);
-  for (uint64_t n = 1;; n += 1 + n / 3) {
-    SporeError fault = SPORE_ERROR_INIT;
-    spore_allocation_fail_at(n);
-    bool made = spore_wall_inner(&ball, 0.008, 1, &inner, &report, NULL, &fault);
-    spore_allocation_fail_at(0);
-    if (made) break;
-    g_assert_cmpint(fault.code, ==, SPORE_ERROR_MEMORY);
-  }
-  spore_triangle_mesh_clear(&inner);
+  without_memory(&ball);
   ball.triangle_count--;
   g_assert_false(spore_wall_inner(&ball, 0.004, 0, &inner, &report, NULL, &open));
   g_assert_nonnull(strstr(open.message, "not closed"));

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/mesh/bvh.h"
+#include "core/mesh/depth_cells.h"
 #include "tests/mesh/shapes.h"
 
 #define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
@@ -152,6 +153,55 @@ static void test_no_memory(void) {
   spore_triangle_mesh_clear(&ball);
 }
 
+/* Cubes that are small, or wider than the surface; places in a lump, so that cubes are used, and far away, where no
+ * cube is; so many triangles that no cube can hold them. The depth is the same to the bit, and what is called nearest
+ * lies at that distance. */
+static void test_depth_cells(void) {
+  const double sides[3] = {0.02, 0.11, 3};
+  for (int shape = 0; shape < 6; shape++) {
+    SporeTriangleMesh mesh;
+    shape_torus(&mesh, 1, 0.4, shape < 3 ? 31 : 300, shape < 3 ? 17 : 120);
+    SporeBvh *bvh = spore_bvh_create(&mesh, NULL);
+    SporeDepthCells *cells = spore_depth_cells_create(bvh, sides[shape % 3]);
+    SporeBvhKnown known = {.depth = 0};
+    for (int i = 0; i < 20000; i++) {
+      SporeVec3 at = i % 5 ? random_point(0.15) : random_point(i % 10 ? 1.6 : 1e8);
+      if (i % 5) at.x += 0.85;
+      known = spore_depth_cells_beside(cells, at, &known);
+      g_assert_true(known.depth == spore_bvh_depth(bvh, at));
+      CLOSE(spore_vec3_distance(at, known.nearest), fabs(known.depth), 1e-14 + 1e-14 * fabs(known.depth));
+    }
+    spore_depth_cells_free(cells);
+    spore_bvh_free(bvh);
+    spore_triangle_mesh_clear(&mesh);
+  }
+}
+
+/* Without memory for the cubes the depths are the same. */
+static void test_depth_cells_without_memory(void) {
+  SporeTriangleMesh torus;
+  shape_torus(&torus, 1, 0.4, 31, 17);
+  SporeBvh *bvh = spore_bvh_create(&torus, NULL);
+  spore_allocation_fail_at(1);
+  g_assert_null(spore_depth_cells_create(bvh, 0.1));
+  for (uint64_t n = 1; n < 12; n++) {
+    SporeDepthCells *cells = spore_depth_cells_create(bvh, 0.1);
+    SporeBvhKnown known = {.depth = 0};
+    uint64_t before = spore_allocation_count();
+    spore_allocation_fail_at(n);
+    for (int i = 0; i < 20000; i++) {
+      SporeVec3 at = random_point(1.2);
+      known = spore_depth_cells_beside(cells, at, &known);
+      g_assert_true(known.depth == spore_bvh_depth(bvh, at));
+    }
+    spore_allocation_fail_at(0);
+    g_assert_cmpuint(spore_allocation_count() - before, >=, n);
+    spore_depth_cells_free(cells);
+  }
+  spore_bvh_free(bvh);
+  spore_triangle_mesh_clear(&torus);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/mesh/bvh/box", test_box);
@@ -159,6 +209,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh/bvh/winding", test_winding);
   g_test_add_func("/mesh/bvh/ray", test_ray);
   g_test_add_func("/mesh/bvh/degenerate", test_degenerate);
+  g_test_add_func("/mesh/bvh/depth-cells", test_depth_cells);
+  g_test_add_func("/mesh/bvh/depth-cells-without-memory", test_depth_cells_without_memory);
   g_test_add_func("/mesh/bvh/no-memory", test_no_memory);
   generator = g_rand_new_with_seed(7);
   int status = g_test_run();

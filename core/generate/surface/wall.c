@@ -17,12 +17,14 @@
 #define THINNED 0.32       /* of the same: largest error of triangles that replace smaller ones */
 #define SPACING (1.0 / 3)  /* of the thickness: between the points at which that error is checked */
 #define MEASURED (1.0 / 6) /* of the thickness: between the points at which the error is reported */
+#define CELL 0.25          /* of the thickness: side of the cubes by which depths are found */
 #define MOST_PARTS 32      /* of a side, for the report */
 #define TRIANGLES_A_REPORT 256
 #define SEARCHES 20000 /* places at which the depth is sampled to find the deepest */
 
 typedef struct Depth {
   const SporeBvh *bvh;
+  SporeDepthCells *cells;
   double thickness;
   SporeBvhKnown known;
 } Depth;
@@ -30,7 +32,7 @@ typedef struct Depth {
 /* Negative in the lumen. */
 static double beyond_wall(void *data, SporeVec3 place) {
   Depth *depth = data;
-  depth->known = spore_bvh_depth_beside(depth->bvh, place, &depth->known);
+  depth->known = spore_depth_cells_beside(depth->cells, place, &depth->known);
   return depth->thickness - depth->known.depth;
 }
 
@@ -140,7 +142,7 @@ static bool make_inner(Depth *depth, const SporeMeshReport *box, double step, do
   for (int e = 0; e < 3; e++) lower[e] = box->lower[e] - 0.3 * step, upper[e] = box->upper[e] + 0.3 * step;
   if (!spore_isosurface(lower, upper, step, REFINED * near, beyond_wall, depth, inner, progress, error)) return false;
   if (inner->triangle_count == 0) return refuse(depth->bvh, box, depth->thickness, error);
-  const SporeSurfaceLimit limit = {depth->bvh, depth->thickness, THINNED * near, SPACING * depth->thickness};
+  const SporeSurfaceLimit limit = {depth->cells, depth->thickness, THINNED * near, SPACING * depth->thickness};
   return spore_triangle_mesh_thin(inner, &limit, progress, error);
 }
 
@@ -153,10 +155,12 @@ bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double d
   if (!spore_triangle_mesh_report_solid(outer, &box, error)) return false;
   SporeBvh *bvh = spore_bvh_create(outer, error);
   if (!bvh) return false;
-  Depth depth = {.bvh = bvh, .thickness = thickness};
+  Depth depth = {.bvh = bvh, .cells = spore_depth_cells_create(bvh, CELL * thickness), .thickness = thickness};
   report->step = fmin(FINEST * box.diagonal, thickness);
-  bool made = make_inner(&depth, &box, report->step, detail, inner, progress, error) &&
+  bool made = (depth.cells || spore_mesh_no_memory(error)) &&
+              make_inner(&depth, &box, report->step, detail, inner, progress, error) &&
               report_wall(outer, bvh, &box, inner, thickness, report, progress, error);
+  spore_depth_cells_free(depth.cells);
   spore_bvh_free(bvh);
   if (!made) spore_triangle_mesh_clear(inner);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - start);
