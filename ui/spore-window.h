@@ -22,7 +22,7 @@
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
- *               show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,
+ *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,
  *               show-problems (state), filter
  *   others      report [s message]
  *

@@ -246,8 +246,8 @@ class Editor:
                     return label.get_name()
         return None
 
-    def hud(self, pattern):
-        """First group of the pattern in the figures over the viewport, as a number; None: not there."""
+    def hud(self, pattern, kind=float):
+        """First group of the pattern in the figures over the viewport, as a number or what else `kind` makes; None: not there."""
         for node in self.nodes("label"):
             try:
                 name = node.get_name() or ""
@@ -255,7 +255,7 @@ class Editor:
                 continue
             if name.startswith("Time "):
                 found = re.search(pattern, name)
-                return float(found.group(1)) if found else None
+                return kind(found.group(1)) if found else None
         return None
 
     def time_s(self):

@@ -1604,14 +1604,19 @@ def sleep_lateness_and_trouble_are_shown():
     with start(write_scene("asleep", "<rigid_body/>")) as editor:
         editor.act("speed", "s", "0")
         editor.act("play")
-        ui.wait(lambda: editor.hud(r"Asleep (\d+)") == 1, "the ball to sleep")
+        ui.wait(lambda: editor.hud(r"(\d+(?:\.\d+)?) times as fast as in life"), "the pace in words")
+        assert editor.hud(r"Contacts (\d+)") is None  # figures are there on demand
+        editor.press(editor.find("toggle button", "^Figures$"))
+        ui.wait(lambda: editor.hud(r"(\d+) bodies at rest") == 1, "the ball to sleep")
         editor.act("set-property", "(sss)", ("environment", "gravity", "0 5 0"))
-        ui.wait(lambda: not editor.hud(r"Asleep (\d+)"), "the ball to wake")
+        ui.wait(lambda: not editor.hud(r"(\d+) bodies at rest"), "the ball to wake")
     trouble = write_scene("trouble", '<deformable_surface structural_stiffness="1e15"/>')
     with start(trouble) as editor:
         editor.act("speed", "s", "100")  # which nothing keeps up with that solves equations in vain
         editor.act("play")
-        ui.wait(lambda: editor.hud(r"Late steps (\d+\.\d+) %"), "late steps")
+        ui.wait(lambda: editor.hud(r"(This machine) does not keep up", str), "a word on the machine")
+        editor.act("show-figures")
+        ui.wait(lambda: editor.hud(r"(\d+\.\d+) % of the steps late"), "late steps")
         ui.wait(lambda: editor.hud(r"⚠ ball: (\d+) steps not solved: it stands still, .*; reset, or change its parameters"), "the warning in the view")
         editor.find("table cell", "^ball: rounding is more than its equations may miss")
         editor.find("table cell", "take softer laws and links")
@@ -1778,6 +1783,7 @@ def plots_of_a_run():
         editor.find("combo box", "^Quantity$")
         editor.act("watch", "s", "ball@0.0015,0.06,0.001")
         assert not editor.message()
+        editor.act("show-figures")
         editor.act("play")
         ui.wait(lambda: editor.hud(r"Contacts (\d+)  ·  deepest"), "contacts and their depth")
         ui.wait(lambda: editor.hud(r"Error of a step about (\S+) "), "the error of a step")

@@ -165,27 +165,35 @@ static void append_unsolved(GString *text, const SporeWorld *world, const SporeS
       (unsigned long long)figures->unsolved.steps, figures->unsolved.cause, figures->unsolved.remedy);
 }
 
-void spore_viewport_overlay_update(SporeViewport *self) {
-  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
-  gtk_widget_set_visible(self->hud, session != NULL);
-  if (!session) return;
+/* How fast the run goes, in words. Time that passes as in life within a twentieth is not worth a figure. */
+#define AS_IN_LIFE 0.05
+#define MANY_LATE 0.05 /* of the steps */
+
+static void append_pace(GString *text, double factor, double late) {
+  if (!(factor > 0)) return;
+  g_string_append(text, "  ·  ");
+  if (fabs(factor - 1) <= AS_IN_LIFE) g_string_append(text, _("as fast as in life"));
+  else if (factor > 1) g_string_append_printf(text, _("%.3g times as fast as in life"), factor);
+  else g_string_append_printf(text, _("slower than in life: %.2g times"), factor);
+  if (factor >= 1 - AS_IN_LIFE || late < MANY_LATE) return;
+  g_string_append_c(text, '\n');
+  g_string_append(text, _("This machine does not keep up; the Accuracy tab finds cheaper settings"));
+}
+
+/* What an author wants to know, and a clinician does not. */
+static void append_figures(GString *text, SporeSession *session, const SporeWorld *world, double late) {
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
-  const SporeWorld *world = spore_session_simulation(session)->world;
   SporeSessionFigures figures = spore_session_figures(session);
-  GString *text = g_string_new(NULL);
-  g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
+  double factor = spore_session_real_time_factor(session);
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Step %.2f ms"), snapshot->step_us / 1000);
-  double factor = spore_session_real_time_factor(session);
   if (factor > 0) {
     g_string_append(text, "  ·  ");
     g_string_append_printf(text, _("%.2f × real time"), factor);
   }
-  guint64 late, steps;
-  spore_session_late_steps(session, &late, &steps);
   if (late > 0) {
-    g_string_append_c(text, '\n');
-    g_string_append_printf(text, _("Late steps %.1f %%"), 100 * (double)late / (double)steps);
+    g_string_append(text, "  ·  ");
+    g_string_append_printf(text, _("%.1f %% of the steps late"), 100 * late);
   }
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
@@ -196,18 +204,39 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   }
   if (snapshot->counts.sleeping > 0) {
     g_string_append(text, "  ·  ");
-    g_string_append_printf(text, _("Asleep %zu"), snapshot->counts.sleeping);
+    g_string_append_printf(text, _("%zu bodies at rest"), snapshot->counts.sleeping);
   }
   append_solver(text, world, snapshot, &figures);
   append_energy(text, snapshot, &figures);
-  append_tools(text, snapshot);
   append_levels(text, world, snapshot);
+}
+
+void spore_viewport_overlay_update(SporeViewport *self) {
+  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
+  gtk_widget_set_visible(self->hud, session != NULL);
+  if (!session) return;
+  const SporeSnapshot *snapshot = spore_session_snapshot(session);
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  SporeSessionFigures figures = spore_session_figures(session);
+  guint64 late, steps;
+  spore_session_late_steps(session, &late, &steps);
+  double part = steps > 0 ? (double)late / (double)steps : 0;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
+  append_pace(text, spore_session_real_time_factor(session), part);
+  append_tools(text, snapshot);
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');
     g_string_append_printf(text, _("Probe force %.3f N"), spore_vec3_length(force));
   }
   append_unsolved(text, world, &figures);
+  if (self->figures) append_figures(text, session, world, part);
   gtk_label_set_text(GTK_LABEL(self->hud), text->str);
   g_string_free(text, TRUE);
+}
+
+void spore_viewport_set_figures(SporeViewport *self, gboolean figures) {
+  self->figures = figures;
+  spore_viewport_overlay_update(self);
 }

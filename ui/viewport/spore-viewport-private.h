@@ -16,6 +16,7 @@ struct _SporeViewport {
   SporeViewportTool tool;
   gboolean picking;
   SporeStageOptions options;
+  gboolean figures; /* in the corner, those of an author, too */
 
   SporeHandEdit edit;    /* of the Edit tool */
   guint32 regions;       /* id of the object whose regions are edited; 0: spheres or a curve are edited */

@@ -48,6 +48,8 @@ void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
 /* Shows the places; count 0: none. They can be dragged over the body's surface. */
 void spore_viewport_set_places(SporeViewport *self, const SporeViewportPlaces *places);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
+/* Whether the corner shows what a step costs, contacts, solver and energy, too. */
+void spore_viewport_set_figures(SporeViewport *self, gboolean figures);
 /* Shows a candidate over the scene, with the legend of its colours (read during the call; without values: no legend).
  * Takes the candidate; NULL: none. */
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
