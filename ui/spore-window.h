@@ -22,9 +22,8 @@
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
- *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,
- *               show-problems (state), filter
- *   others      report [s message]
+ *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
+ * show-inspector, show-problems (state), filter others      report [s message]
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

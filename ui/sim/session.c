@@ -547,6 +547,14 @@ SporeDeviceState spore_session_input(SporeSession *session, guint32 body) {
   return input;
 }
 
+double spore_session_get_speed(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  double speed = session->speed;
+  g_mutex_unlock(&locked->mutex);
+  return speed;
+}
+
 double spore_session_real_time_factor(const SporeSession *session) {
   SporeSession *locked = (SporeSession *)session;
   g_mutex_lock(&locked->mutex);

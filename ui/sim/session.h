@@ -33,6 +33,7 @@ gboolean spore_session_try_reset(SporeSession *session);
 /* Copies the state of bodies that both sessions have, by name, into a session that is not running. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
+double spore_session_get_speed(const SporeSession *session);
 
 /* Newest state. Valid until the next call. One reader: the GTK thread. */
 const SporeSnapshot *spore_session_snapshot(SporeSession *session);

@@ -167,15 +167,15 @@ static void append_unsolved(GString *text, const SporeWorld *world, const SporeS
 
 /* How fast the run goes, in words. Time that passes as in life within a twentieth is not worth a figure. */
 #define AS_IN_LIFE 0.05
-#define MANY_LATE 0.05 /* of the steps */
 
-static void append_pace(GString *text, double factor, double late) {
+/* asked: how many times as fast as in life it should be; 0: as fast as it goes. */
+static void append_pace(GString *text, double factor, double asked) {
   if (!(factor > 0)) return;
   g_string_append(text, "  ·  ");
   if (fabs(factor - 1) <= AS_IN_LIFE) g_string_append(text, _("as fast as in life"));
   else if (factor > 1) g_string_append_printf(text, _("%.3g times as fast as in life"), factor);
   else g_string_append_printf(text, _("slower than in life: %.2g times"), factor);
-  if (factor >= 1 - AS_IN_LIFE || late < MANY_LATE) return;
+  if (factor >= (1 - AS_IN_LIFE) * asked) return;
   g_string_append_c(text, '\n');
   g_string_append(text, _("This machine does not keep up; the Accuracy tab finds cheaper settings"));
 }
@@ -223,7 +223,7 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   double part = steps > 0 ? (double)late / (double)steps : 0;
   GString *text = g_string_new(NULL);
   g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
-  append_pace(text, spore_session_real_time_factor(session), part);
+  append_pace(text, spore_session_real_time_factor(session), spore_session_get_speed(session));
   append_tools(text, snapshot);
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
