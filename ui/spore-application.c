@@ -48,10 +48,14 @@ static void load_style(void) {
 
 static void about(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeApplication *self = data;
-  gtk_show_about_dialog(gtk_application_get_active_window(GTK_APPLICATION(self)), "program-name", "SPORE", "version",
-                        self->version, "comments",
-                        _("Editor and real-time kernel for surgical simulation.\nFor training and preview only."),
-                        "license-type", GTK_LICENSE_GPL_3_0, "logo-icon-name", "org.spore.Editor", NULL);
+  GtkWindow *window = gtk_application_get_active_window(GTK_APPLICATION(self));
+  g_autofree char *pictures = SPORE_IS_WINDOW(window) ? g_strdup_printf(_("Pictures are made by %s."),
+                                                                        spore_window_get_renderer(SPORE_WINDOW(window)))
+                                                      : g_strdup("");
+  g_autofree char *comments = g_strconcat(
+      _("Editor and real-time kernel for surgical simulation.\nFor training and preview only."), "\n", pictures, NULL);
+  gtk_show_about_dialog(window, "program-name", "SPORE", "version", self->version, "comments", comments, "license-type",
+                        GTK_LICENSE_GPL_3_0, "logo-icon-name", "org.spore.Editor", NULL);
 }
 
 static void quit(GSimpleAction *action, GVariant *parameter, gpointer data) {

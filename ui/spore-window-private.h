@@ -22,7 +22,7 @@ struct _SporeWindow {
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text,
       *hold_bar, *hold_text, *hold_button;
   GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *generator_panel, *middle, *bottom,
-      *tabs, *log, *hint, *job_box, *job_label, *job_bar, *renderer;
+      *tabs, *log, *hint, *job_box, *job_label, *job_bar;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */

@@ -172,7 +172,6 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_box);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_label);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_bar);
-  gtk_widget_class_bind_template_child(widget, SporeWindow, renderer);
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
 }
 
@@ -214,11 +213,8 @@ static void spore_window_init(SporeWindow *self) {
 
 gboolean spore_window_is_fresh(SporeWindow *self) { return self->fresh && !self->job; }
 
-static gboolean name_renderer(gpointer data) {
-  SporeWindow *self = data;
-  gtk_label_set_text(GTK_LABEL(self->renderer), spore_viewport_get_renderer(SPORE_VIEWPORT(self->viewport)));
-  gtk_widget_set_tooltip_text(self->renderer, gtk_label_get_text(GTK_LABEL(self->renderer)));
-  return G_SOURCE_REMOVE;
+const char *spore_window_get_renderer(SporeWindow *self) {
+  return spore_viewport_get_renderer(SPORE_VIEWPORT(self->viewport));
 }
 
 SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *schema, const char *scenes) {
@@ -227,7 +223,5 @@ SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *sc
   self->scenes = g_strdup(scenes);
   g_action_group_activate_action(G_ACTION_GROUP(self), "new", NULL);
   self->fresh = TRUE;
-  /* After the first frame, which makes the context. */
-  g_idle_add_full(G_PRIORITY_LOW, name_renderer, g_object_ref(self), g_object_unref);
   return self;
 }

@@ -42,6 +42,8 @@ G_DECLARE_FINAL_TYPE(SporeWindow, spore_window, SPORE, WINDOW, GtkApplicationWin
 SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *schema, const char *scenes);
 /* Reads the scene without holding up the window. */
 void spore_window_open(SporeWindow *self, const char *file);
+/* What makes the pictures of the view, or why nothing is drawn. */
+const char *spore_window_get_renderer(SporeWindow *self);
 /* TRUE: nothing was made or opened in this window. */
 gboolean spore_window_is_fresh(SporeWindow *self);
 /* Offers what a dead owner left, if any. */

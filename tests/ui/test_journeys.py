@@ -77,12 +77,15 @@ def saved(editor, name):
 
 @check
 def empty_window_says_what_to_do():
-    """the empty window says what to do, and with what it draws."""
+    """the empty window says what to do; About says with what it draws."""
     with start() as editor:
         editor.find("label", "Begin with an organ")
         editor.find("push button", "Import mesh")
         editor.find("push button", "Open demo")
-        editor.find("label", "llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel")
+        assert not editor.look("label", "llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel")
+        editor.press(editor.find("toggle button", "^Menu$"))
+        editor.press(editor.find(".*", "^About SPORE$"))
+        editor.find("label", "Pictures are made by .*(llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel)")
         assert not editor.enabled("undo") and not editor.enabled("play")
 
 
