@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/run_exercise.h"
 #include "app/cli/run_output.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
@@ -19,7 +20,7 @@ typedef struct RunOptions {
   char *time;
   gint64 steps;
   gboolean realtime;
-  char *record;
+  char *record, *report;
   char **level;
   int threads;
   SporeSceneOptions scene;
@@ -51,6 +52,7 @@ typedef struct Beside {
   SporePace *pace;      /* the clock that paces the steps; NULL: none */
   Recording *recording; /* with a channel for each active body; NULL: nothing is recorded */
   SporeOutput *output;
+  SporeExercise *exercise; /* NULL: the scene has none */
 } Beside;
 
 static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, const Beside *beside) {
@@ -67,6 +69,7 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);
+    if (beside->exercise) spore_exercise_watch(beside->exercise, world);
     if (beside->recording && !record_inputs(world, &beside->recording->track)) {
       beside->recording->lost = TRUE;
       break;
@@ -124,6 +127,7 @@ static gboolean check_files(const char *scene, const RunOptions *options, GError
   const char *record = options->record, *input = options->scene.input;
   if (record && !(spore_cli_has_room(record, scene, error) && (!input || spore_cli_has_room(record, input, error))))
     return FALSE;
+  if (options->report && !spore_exercise_file_check(options->report, scene, input, error)) return FALSE;
   return spore_output_check(&options->output, scene, input, record, error);
 }
 
@@ -139,10 +143,12 @@ static int run_opened(SporeCli *cli, const char *scene, const RunOptions *option
   g_autofree SporePace *pace = beside->pace = options->realtime ? g_new(SporePace, 1) : NULL;
   if (pace) spore_world_set_budget(world, 1e6 * beside->dt_s);
   SporeRunStatistics result = run_steps(cli, world, steps, beside);
-  int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
+  int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace, beside->exercise));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
   int written = spore_output_save(cli, beside->output, scene);
-  status = MAX(status, MAX(saved, written));
+  int reported =
+      options->report ? spore_exercise_file_save(cli, beside->exercise, scene, options->report) : SPORE_EXIT_DONE;
+  status = MAX(MAX(status, reported), MAX(saved, written));
   spore_track_clear(&recording.track);
   spore_run_statistics_clear(&result);
   return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
@@ -158,8 +164,11 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   gint64 steps = 0;
   if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
+  if (options->report && !run->simulation->exercise)
+    return spore_cli_usage(
+        _("--report: the scene has no exercise; expected steps or metrics in it; leave --report out"));
   SporeOutput output;
-  Beside beside = {.dt_s = dt_s, .levels = levels, .output = &output};
+  Beside beside = {.dt_s = dt_s, .levels = levels, .output = &output, .exercise = run->simulation->exercise};
   gboolean opened = spore_output_open(&output, &options->output, run, &error);
   int status = opened ? run_opened(cli, scene, options, run->simulation->world, steps, &beside) : spore_cli_fail(error);
   spore_output_clear(&output);
@@ -209,6 +218,12 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
           "are farther apart along it than the sum of their radii, of that sum, over all steps; 1: none touched), "
           "time_s (when that was), through (steps that began with such spheres nearer than half of it: its loops go "
           "through each other; where it collides with itself the exit status is 1)")},
+      {"exercise",
+       N_("where the scene has one: phase (running, done, out_of_time), time_s, score (0 to 100: share of the steps "
+          "done, "
+          "times the mean mark), passed, steps (name, kind, phase, done_s, early: how often its event came before its "
+          "turn), metrics (name, kind, value, unit, good, pass, mark: 1 at good, .5 at pass, verdict, source). The "
+          "exit status does not depend on it")},
       {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
                      "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
                      "deep_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "
@@ -249,6 +264,9 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
        N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
+      {"report", 0, 0, G_OPTION_ARG_FILENAME, &options.report,
+       N_("Write steps, metrics and score of the scene's exercise: a table, an object, or a page with plots"),
+       "F.csv, F.json or F.html"},
       SPORE_OUTPUT_OPTION_ENTRIES(options.output),
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
@@ -266,6 +284,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
   spore_output_options_clear(&options.output);
   g_free(options.time);
   g_free(options.record);
+  g_free(options.report);
   g_strfreev(options.level);
   return status;
 }

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "app/cli/run_exercise.h"
 #include "app/cli/run_loops.h"
 
 static void report_stages(SporeCli *cli, const SporePlan *plan) {
@@ -317,7 +318,7 @@ static void report_states(SporeCli *cli, const SporeWorld *world) {
 }
 
 int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result,
-                     const SporePace *pace) {
+                     const SporePace *pace, const SporeExercise *exercise) {
   SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
   g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
   gint64 steps = (gint64)spore_world_step_count(world);
@@ -360,6 +361,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_tools(cli, world);
   report_levels(cli, world);
   report_lines(cli, world);
+  spore_run_report_exercise(cli, exercise);
   gboolean held = spore_run_report_loops(cli, world, &result->loops);
   held &= report_monitor(cli, world);
   held &= report_pace(cli, world, pace);

@@ -40,8 +40,7 @@ static void destroy_models(const SporeCompiler *compiler) {
   }
 }
 
-/* Replaces the object path in a kernel's message by the line of the file, which the author can look up. */
-static gboolean say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
+gboolean spore_compiler_say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
   SporeObject *object = *fault->place ? spore_document_by_path(compiler->document, fault->place) : NULL;
   if (!object) return spore_error_propagate(fault, compiler->error);
   g_autofree char *where = spore_object_where(object);
@@ -67,7 +66,7 @@ static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
   description.gravity = spore_vec3_load(environment.gravity);
   SporeError fault = SPORE_ERROR_INIT;
   SporeWorld *world = spore_world_create(&description, pool, &fault);
-  if (!world) say_in_scene(compiler, &fault);
+  if (!world) spore_compiler_say_in_scene(compiler, &fault);
   return world;
 }
 
@@ -86,7 +85,9 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
   simulation->body_object = g_new0(guint32, MAX(compiler->objects->len, 1));
   for (guint i = 0; i < compiler->objects->len; i++)
     simulation->body_object[i] = spore_object_id(g_ptr_array_index(compiler->objects, i));
-  if (simulation->world && spore_compiler_open_devices(compiler, simulation)) return simulation;
+  if (simulation->world && spore_compiler_open_devices(compiler, simulation) &&
+      spore_compiler_make_exercise(compiler, simulation->world, &simulation->exercise))
+    return simulation;
   spore_simulation_free(simulation);
   return NULL;
 }
@@ -126,6 +127,7 @@ SporeSimulation *spore_simulation_new_unpruned(SporeDocument *document, SporePoo
 
 void spore_simulation_free(SporeSimulation *simulation) {
   if (!simulation) return;
+  spore_exercise_free(simulation->exercise);
   if (simulation->world) spore_world_free(simulation->world);
   g_ptr_array_unref(simulation->devices); /* the world borrows the devices, and the devices borrow the track */
   if (simulation->track) spore_track_clear(simulation->track);

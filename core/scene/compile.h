@@ -2,6 +2,7 @@
 #ifndef SPORE_SCENE_COMPILE_H
 #define SPORE_SCENE_COMPILE_H
 
+#include "core/exercise/exercise.h"
 #include "core/haptic/track.h"
 #include "core/scene/document.h"
 #include "core/sim/world.h"
@@ -9,9 +10,10 @@
 /* A running copy of a document. The simulation never changes the document. */
 typedef struct SporeSimulation {
   SporeWorld *world;
-  SporeTrack *track;    /* merged input: tracks named by the scene's devices; NULL: none */
-  GPtrArray *devices;   /* SporeDevice *, closed with the simulation */
-  guint32 *body_object; /* world body index -> object id */
+  SporeExercise *exercise; /* of the world; whoever steps the world has to let it watch; NULL: the scene has none */
+  SporeTrack *track;       /* merged input: tracks named by the scene's devices; NULL: none */
+  GPtrArray *devices;      /* SporeDevice *, closed with the simulation */
+  guint32 *body_object;    /* world body index -> object id */
 } SporeSimulation;
 
 /* Compiles the document. The pool is borrowed. `input` replaces the scene's own tracks by body name, and is borrowed

@@ -34,12 +34,17 @@ gboolean spore_compiler_resolve(SporeCompiler *compiler, const SporeObject *obje
 gboolean spore_compiler_body_index(SporeCompiler *compiler, const SporeObject *object, const char *property,
                                    guint32 *index);
 
+/* Sets the error to a fault of the kernel whose place is the path of an object; the line of the file takes its place.
+ */
+gboolean spore_compiler_say_in_scene(SporeCompiler *compiler, const SporeError *fault);
 /* Each function adds the description of one object of the scene. Bodies must be added first. */
 gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body);
 gboolean spore_compiler_add_link(SporeCompiler *compiler, const SporeObject *object);
 gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object);
 gboolean spore_compiler_add_emitter(SporeCompiler *compiler, const SporeObject *object);
 
+/* Makes the exercise of the scene. *exercise: NULL: the scene has none. */
+gboolean spore_compiler_make_exercise(SporeCompiler *compiler, const SporeWorld *world, SporeExercise **exercise);
 /* Merges the recorded input of all active bodies: `input` (NULL: none) first, the scene's own tracks for the other
  * bodies. */
 gboolean spore_compiler_merge_input(SporeCompiler *compiler, SporeTrack *merged, const SporeTrack *input);

@@ -91,6 +91,14 @@ static void add_tool(SporeSchema *schema, const SporeToolType *tool) {
   add_kind(schema, "tools", tool->element, tool->label, tool->doc, &tool->parameters);
 }
 
+static void add_step(SporeSchema *schema, const SporeEventKind *step) {
+  add_kind(schema, "exercise", step->element, step->label, step->doc, &step->parameters);
+}
+
+static void add_metric(SporeSchema *schema, const SporeMetricKind *metric) {
+  add_kind(schema, "exercise", metric->element, metric->label, metric->doc, &metric->parameters);
+}
+
 static const char **integrator_choices(void) {
   size_t count = 0;
   while (spore_integrator_names[count]) count++;
@@ -134,6 +142,8 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *c
   for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model);
   for (const SporeLinkType *const *link = spore_link_types; *link; link++) add_link(schema, *link);
   for (const SporeToolType *const *tool = spore_tool_types; *tool; tool++) add_tool(schema, *tool);
+  for (const SporeEventKind *const *step = spore_event_kinds; *step; step++) add_step(schema, *step);
+  for (const SporeMetricKind *const *metric = spore_metric_kinds; *metric; metric++) add_metric(schema, *metric);
   return schema;
 }
 

@@ -34,7 +34,8 @@ bool spore_format_version_check(const char *version, SporeError *error);
  * automatic ...) > coarse(geometry settings) medium(geometry settings) links  > pin(name body point radius) |
  * spring(name body_a body_b point_a point_b stiffness damping rest_length) effects tools  > probe(name body device) |
  * camera(name position target field_of_view) camera(name position target field_of_view) devices > mouse(name) |
- * track(name file) exercise
+ * track(name file) exercise(task time_limit order) > steps (core/exercise/event.h) and metrics
+ * (core/exercise/metric.h), in any order
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).

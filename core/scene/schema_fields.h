@@ -2,6 +2,7 @@
 #ifndef SPORE_SCENE_SCHEMA_FIELDS_H
 #define SPORE_SCENE_SCHEMA_FIELDS_H
 
+#include "core/exercise/exercise.h"
 #include "core/scene/schema.h"
 #include "core/sim/world.h"
 

@@ -82,6 +82,7 @@ const SporeElement spore_tool_elements[] = {
     {"devices", N_("Devices"), N_("Where input comes from."), .children = CHILDREN("mouse", "track")},
     {"mouse", N_("Mouse"), N_("The pointer on the screen."), TABLE(mouse_parameters, SporeMouseFields)},
     {"track", N_("Track"), N_("Recorded input, played back."), TABLE(track_parameters, SporeTrackFields)},
-    {"exercise", N_("Exercise"), N_("What the trainee is asked to do.")},
+    {"exercise", N_("Exercise"), N_("What the trainee is asked to do, and how well that is done."),
+     .extra = &spore_exercise_parameters, .size = sizeof(SporeExerciseFields)},
     {NULL},
 };

@@ -168,6 +168,19 @@ bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) {
   return world->bodies[body].sleep.asleep;
 }
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->state.step; }
+SporeBodyMarks spore_world_body_marks(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].marks;
+}
+
+size_t spore_world_contact_count(const SporeWorld *world) { return world->contact.count; }
+
+SporeTouch spore_world_contact(const SporeWorld *world, size_t i) {
+  assert(i < world->contact.count);
+  const SporeContactTerm *term = &world->contact.terms[i];
+  return (SporeTouch){term->a.body, term->b.body, spore_vec3_dot(term->force, term->normal)};
+}
+
 const SporeSpheres *spore_world_spheres(const SporeWorld *world) { return &world->contact.spheres; }
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);

@@ -258,6 +258,26 @@ SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 size_t spore_world_tool_count(const SporeWorld *world);
 /* State of a tool, in the order of the description. */
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
+/* Number of spheres of the body that the tool's jaws hold now. */
+size_t spore_world_tool_holds(const SporeWorld *world, size_t tool, uint32_t body);
+/* What tools have done to a body since time 0, whichever tool it was. */
+typedef struct SporeBodyMarks {
+  uint64_t cut;        /* ties */
+  uint64_t coagulated; /* ties and elements, counted in each step in which they were heated */
+  uint64_t pierced;    /* surfaces */
+  uint64_t sucked;     /* particles */
+} SporeBodyMarks;
+SporeBodyMarks spore_world_body_marks(const SporeWorld *world, uint32_t body);
+
+/* Number of contacts in the last step, of bodies that are awake. */
+size_t spore_world_contact_count(const SporeWorld *world);
+/* Two bodies that met in the last step. */
+typedef struct SporeTouch {
+  uint32_t body_a, body_b;
+  double force; /* normal, N; 0: their margins met, and they did not press */
+} SporeTouch;
+/* Contact i, below the count. */
+SporeTouch spore_world_contact(const SporeWorld *world, size_t i);
 
 /* Number of the body's particles that are in the world: neither in reserve, nor taken away, nor dissolved. */
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t body);

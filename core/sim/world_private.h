@@ -56,6 +56,7 @@ struct SporeBody {
   SporeNodeSplitting splitting;
   SporeSplineRefinement refinement;
   SporeBodyDevice device;
+  SporeBodyMarks marks;
 };
 
 struct SporeWorld {

@@ -17,7 +17,8 @@ LAYERS = [
     {"body"},
     {"constraint"},
     {"sim"},
-    {"exercise", "measure", "runtime", "scene"},
+    {"exercise"},
+    {"measure", "runtime", "scene"},
     {"io", "generate"},
     {"author"},
 ]

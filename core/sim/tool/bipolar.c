@@ -40,6 +40,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
     size_t count = body->model->type->heat->coagulate(body->model, world->state.q + body->q_offset, &heat);
     if (count > 0) warm(world, b);
     bipolar->coagulated += count;
+    world->bodies[b].marks.coagulated += count;
   }
 }
 

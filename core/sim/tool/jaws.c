@@ -270,6 +270,14 @@ void spore_jaws_state(const SporeTool *tool, SporeToolState *state) {
   }
 }
 
+static size_t holds(const SporeWorld *world, const SporeTool *tool, uint32_t body) {
+  const SporeJaws *jaws = (const SporeJaws *)tool;
+  size_t count = 0;
+  for (size_t i = 0; i < tool->spring_count; i++)
+    count += jaws->holds[i].state == SPORE_HOLD_TIED && world->contact.spheres.body[jaws->holds[i].sphere] == body;
+  return count;
+}
+
 /* Grasper and clamp. */
 
 static size_t spring_count(const void *fields) { return (size_t)((const SporeJawFields *)fields)->holds; }
@@ -295,7 +303,8 @@ const SporeToolType spore_grasper = {.element = "grasper",
                                      .use = spore_jaws_use,
                                      .tear = tear,
                                      .feed_back = spore_jaws_feed_back,
-                                     .state = spore_jaws_state};
+                                     .state = spore_jaws_state,
+                                     .holds = holds};
 
 const SporeToolType spore_clamp = {
     .element = "clamp",
@@ -312,4 +321,5 @@ const SporeToolType spore_clamp = {
     .use = spore_jaws_use,
     .tear = tear,
     .feed_back = spore_jaws_feed_back,
-    .state = spore_jaws_state};
+    .state = spore_jaws_state,
+    .holds = holds};

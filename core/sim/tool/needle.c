@@ -261,6 +261,7 @@ static void pierce(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) 
   term->law.friction = needle->fields.friction;
   stitch->needle.start = 0;
   needle->pierced++;
+  world->bodies[stitch->body].marks.pierced++;
   spore_world_report(world, _("%s: pierced %s"), needle->tool.name, world->bodies[stitch->body].name);
 }
 

@@ -39,6 +39,7 @@ static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *tr
         body->model->type->cut->cut(body->model, world->state.q + body->q_offset, triangle, b, &world->topology.cuts);
     if (count > 0) spore_body_was_cut(world, b);
     scissors->cut += count;
+    world->bodies[b].marks.cut += count;
   }
 }
 

@@ -28,6 +28,7 @@ static void suck_from(SporeWorld *world, SporeSuction *suction, uint32_t index, 
     spore_world_take_particle(world, body, i);
     suction->due--;
     suction->taken++;
+    body->marks.sucked++;
   }
 }
 

@@ -77,6 +77,8 @@ struct SporeToolType {
   void (*feed_back)(struct SporeWorld *world, const struct SporeTool *tool);
   /* Fills the fields of the state that concern this kind. */
   void (*state)(const struct SporeTool *tool, SporeToolState *state);
+  /* Number of spheres of a body that it holds. NULL: it holds nothing. */
+  size_t (*holds)(const struct SporeWorld *world, const struct SporeTool *tool, uint32_t body);
 };
 
 /* What closes jaws. */

@@ -95,6 +95,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     SporeTool *tool = world->tools.all[i];
     if (tool->type->reset) tool->type->reset(world, tool);
   }
+  for (size_t b = 0; b < world->body_count; b++) world->bodies[b].marks = (SporeBodyMarks){0};
   count_tools(world);
 }
 
@@ -160,6 +161,12 @@ bool spore_tool_button(const SporeWorld *world, uint32_t body) {
   assert(body == SPORE_NO_BODY || body < world->body_count);
   const SporeBodyDevice *device = body == SPORE_NO_BODY ? NULL : &world->bodies[body].device;
   return device && device->has_input && (device->input.buttons & 1u);
+}
+
+size_t spore_world_tool_holds(const SporeWorld *world, size_t index, uint32_t body) {
+  assert(index < world->tools.count && body < world->body_count);
+  const SporeTool *tool = world->tools.all[index];
+  return tool->type->holds ? tool->type->holds(world, tool, body) : 0;
 }
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }

@@ -1,0 +1,316 @@
+#!/usr/bin/python3
+"""Exercises, headless: every event and every metric against a run in which it is there and one in which it is not, and
+against what can be computed by hand. test_exercise.py SPORE."""
+import csv
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from tap import check, main
+
+SPORE = os.path.abspath(sys.argv[1])
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-exercise-"))
+SCENES = WORK / "scenes"
+shutil.copytree(pathlib.Path(__file__).resolve().parent.parent.parent / "resources" / "scenes", SCENES)
+(WORK / "ball.spheres").write_text("0 0 0 0.01\n")
+(WORK / "dish.spheres").write_text("".join(f"{x} 0 {z} 0.02\n" for x in (-.02, .02) for z in (-.02, .02)))
+
+# A ball that goes along x at 0.1 m/s for a second, rests, and goes on; a wall, a dish and a second ball that stand in its way.
+SCENE = """<?xml version="1.0" encoding="UTF-8"?>
+<spore version="1.0"><environment gravity="0 -9.81 0"/><solver time_step="0.01"/>
+<assets><spheres name="ball" file="ball.spheres"/><spheres name="dish" file="dish.spheres"/></assets>
+<bodies>
+<body name="tip" role="active"><collision spheres="ball" stiffness="100"/></body>
+<body name="other" role="active" position="0.25 0 0"><collision spheres="ball" stiffness="100"/></body>
+<body name="wall" role="unmovable" position="0.115 0 0"><collision spheres="ball"/></body>
+<body name="dish" role="unmovable" position="0.2 0.002 0"><collision spheres="dish" group="7"/></body>
+</bodies>
+<tools><probe name="one" body="tip" device="hand"/><probe name="two" body="other" device="hand"/>
+<camera name="eye" position="0 0 0.1" target="0 0 0" field_of_view="0.5"/></tools>
+<devices><track name="hand" file="hand.track"/></devices>
+<exercise %s>%s</exercise></spore>
+"""
+
+
+def track(way):
+    """A line for each 10 ms: way(t) gives x."""
+    rows = "".join(f"{t / 100:.2f} {way(t / 100):.9f} 0 0 1 0 0 0 0 0\n" for t in range(401))
+    (WORK / "hand.track").write_text(f"spore-track 1\ndevice tip\n{rows}device other\n0 0.25 0 0 1 0 0 0 0 0\n")
+
+
+def straight(t):
+    return 0.1 * min(t, 1) + 0.1 * max(0, t - 2)
+
+
+track(straight)
+
+
+def spore(*arguments, status=0):
+    done = subprocess.run([SPORE, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=WORK)
+    assert done.returncode == status, f"{arguments}: status {done.returncode}\n{done.stdout}{done.stderr}"
+    return done
+
+
+def run(parts, steps, attributes="", *options):
+    (WORK / "scene.spore").write_text(SCENE % (attributes, parts))
+    return json.loads(spore("run", "scene.spore", "-n", steps, "--json", *options).stdout)["exercise"]
+
+
+def run_shipped(name, parts, steps, status=0):
+    """A shipped scene, with an exercise of these parts."""
+    text = (SCENES / f"{name}.spore").read_text().split("<exercise")[0].replace("</spore>", "")
+    (SCENES / "part.spore").write_text(f"{text}<exercise>{parts}</exercise></spore>")
+    done = subprocess.run([SPORE, "run", SCENES / "part.spore", "-n", str(steps), "--json"], capture_output=True,
+                          text=True, timeout=300)
+    assert done.returncode in (0, 1), done.stderr
+    return json.loads(done.stdout)["exercise"]
+
+
+def steps(exercise):
+    return {step["name"]: step for step in exercise["steps"]}
+
+
+def metrics(exercise):
+    return {metric["name"]: metric for metric in exercise["metrics"]}
+
+
+def near(value, wanted, within=1e-9):
+    assert abs(value - wanted) <= within, (value, wanted)
+
+
+@check
+def a_place_is_reached_when_the_instrument_is_there():
+    found = steps(run('<reached name="near" tool="one" point="0.05 0 0" radius="0.01"/>'
+                      '<reached name="stays" tool="one" point="0.1 0 0" radius="0.002" time="0.5"/>'
+                      '<reached name="rushes" tool="one" point="0.05 0 0" radius="0.01" time="0.5"/>'
+                      '<reached name="never" tool="two" point="0.05 0 0" radius="0.01"/>', 400))
+    near(found["near"]["done_s"], 0.4, 0.021)
+    near(found["stays"]["done_s"], 0.98 + 0.5, 0.031)
+    assert found["rushes"]["phase"] == found["never"]["phase"] == "open", found
+    assert found["never"]["done_s"] is None
+
+
+@check
+def a_ring_is_passed_in_its_direction_and_within_it():
+    ring = '<passed_through name="%s" tool="one" point="0.05 %s 0" direction="%s 0 0" radius="0.01"/>'
+    found = steps(run(ring % ("through", "0.005", 1) + ring % ("beside", "0.02", 1) + ring % ("against", "0.005", -1), 200))
+    near(found["through"]["done_s"], 0.5, 0.021)
+    assert found["beside"]["phase"] == found["against"]["phase"] == "open", found
+
+
+@check
+def what_is_touched_is_pressed_on():
+    found = steps(run('<touched name="yes" tool="one" body="wall"/><touched name="no" tool="two" body="wall"/>'
+                      '<touched name="beside" tool="one" body="dish"/>', 200))
+    near(found["yes"]["done_s"], 0.96, 0.031)
+    assert found["no"]["phase"] == found["beside"]["phase"] == "open", found
+
+
+@check
+def a_body_is_in_the_dish_when_it_lies_within():
+    found = steps(run('<bagged name="in" body="tip" container="dish" share="1"/>'
+                      '<bagged name="never" body="other" container="dish" share="1"/>', 400))
+    assert found["in"]["phase"] == "done" and found["never"]["phase"] == "open", found
+    near(found["in"]["done_s"], 2 + (0.16 - 0.1) / 0.1, 0.021)
+
+
+@check
+def paths_movements_economy_and_time_are_those_of_the_track():
+    found = metrics(run('<path_length name="all"/><path_length name="one" tool="one"/><path_length name="two" tool="two"/>'
+                        '<movements name="moves"/><economy name="economy" tool="one"/><economy name="still" tool="two"/>'
+                        '<time_taken name="time"/>', 400))
+    near(found["one"]["value"], straight(4), 0.002)
+    near(found["all"]["value"], found["one"]["value"])
+    near(found["two"]["value"], 0)
+    near(found["moves"]["value"], 2)
+    near(found["economy"]["value"], 1)
+    assert found["still"]["value"] is None
+    near(found["time"]["value"], 4)
+
+
+@check
+def a_detour_costs_economy_and_haste_smoothness():
+    track(lambda t: 0.001 * t ** 3)
+    smooth = metrics(run('<economy name="e" tool="one"/><smoothness name="s" tool="one"/>', 400))
+    track(lambda t: 0.001 * t ** 3 + 0.002 * math.sin(40 * t))
+    shaky = metrics(run('<economy name="e" tool="one"/><smoothness name="s" tool="one"/>', 400))
+    track(straight)
+    assert shaky["e"]["value"] < 0.95 < smooth["e"]["value"], (shaky, smooth)
+    assert shaky["s"]["value"] > 2 * smooth["s"]["value"], (shaky, smooth)
+
+
+@check
+def normalised_jerk_is_that_of_a_polynomial():
+    """x = t^3: the jerk is 6 m/s^3 throughout; sqrt(1/2 36 T T^5 / L^2) with L = T^3 is sqrt(18)."""
+    track(lambda t: 0.001 * t ** 3)
+    found = metrics(run('<smoothness name="s" tool="one"/>', 390))["s"]["value"]
+    track(straight)
+    near(found, math.sqrt(18), 0.1)
+
+
+@check
+def instruments_collide_once_where_they_stay_in_contact():
+    """The balls overlap from 3.3 s to 3.7 s."""
+    parts = '<collisions name="c"/><collisions name="of" tool="two"/>'
+    for steps_run, wanted in (325, 0), (340, 1), (365, 1), (400, 1):
+        found = metrics(run(parts, steps_run))
+        assert found["c"]["value"] == found["of"]["value"] == wanted, (steps_run, found)
+
+
+@check
+def forces_are_those_of_the_wall():
+    """The ball of 0.01 m rests 0.005 m deep in the wall's from 1 s to 2 s."""
+    found = metrics(run('<peak_force name="peak" tool="one"/><mean_force name="mean" tool="one"/><peak_force name="two" '
+                        'tool="two"/><excess_force name="much" tool="one" force="0.01"/>'
+                        '<excess_force name="more" tool="one" force="100"/>', 200))
+    assert found["peak"]["value"] > 0.1 and 0 < found["mean"]["value"] <= found["peak"]["value"], found
+    near(found["much"]["value"], 1.05, 0.021)
+    assert found["more"]["value"] == found["two"]["value"] == 0, found
+    before = metrics(run('<peak_force name="peak"/><mean_force name="mean"/>', 90))
+    assert before["mean"]["value"] == before["peak"]["value"] == 0, before
+
+
+@check
+def what_leaves_the_view_is_out_of_it():
+    """The view is as wide as 0.1 tan(0.25) at the middle: left after 0.255 s."""
+    found = metrics(run('<out_of_view name="one" tool="one" camera="eye"/><out_of_view name="any" camera="eye"/>', 100))
+    near(found["one"]["value"], 1 - math.tan(0.25), 0.021)
+    near(found["any"]["value"], 1)
+
+
+@check
+def order_and_conditions_hold():
+    parts = ('<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/>'
+             '<reached name="near" tool="one" point="0.05 0 0" radius="0.002"/>')
+    free, given = steps(run(parts, 200)), steps(run(parts, 200, 'order="given"'))
+    assert free["near"]["phase"] == "done" and given["near"]["phase"] == "open" and given["far"]["phase"] == "done"
+    after = steps(run(parts.replace('name="near"', 'name="near" after="far"'), 50))
+    assert after["near"]["phase"] == "waiting", after
+
+
+@check
+def time_limit_ends_it_and_done_stops_the_clock():
+    part = '<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/><time_taken name="t"/>'
+    late, soon = run(part, 200, 'time_limit="0.5"'), run(part, 200)
+    assert late["phase"] == "out_of_time" and late["score"] == 0 and not late["passed"], late
+    assert soon["phase"] == "done" and soon["passed"] and soon["score"] == 100, soon
+    near(metrics(soon)["t"]["value"], steps(soon)["far"]["done_s"])
+
+
+@check
+def marks_and_score_follow_from_the_thresholds():
+    """Two seconds: half way between good and pass is .75; worse than pass, on the same line, to 0."""
+    grade = '<time_taken name="%s" good="%s" pass="%s" weight="%s"/>'
+    exercise = run(grade % ("mid", "1 s", "3 s", 1) + grade % ("good", "3 s", "0.1 min", 1) +
+                   grade % ("bad", "0.5 s", "1 s", 2) + '<time_taken name="only" pass="2.5 s"/>'
+                   '<time_taken name="late" pass="1 s"/><time_taken name="free"/>', 200)
+    found = metrics(exercise)
+    for name, mark, verdict in (("mid", .75, "pass"), ("good", 1, "good"), ("bad", 0, "fail"), ("only", 1, "pass"),
+                                ("late", 0, "fail"), ("free", None, "none")):
+        assert found[name]["verdict"] == verdict, found[name]
+        assert found[name]["mark"] is None if mark is None else abs(found[name]["mark"] - mark) < 1e-9, found[name]
+    near(found["good"]["pass"], 6)
+    near(exercise["score"], 100 * (.75 + 1 + 0 + 1 + 0) / 6, 1e-6)
+    assert not exercise["passed"]
+
+
+@check
+def clip_holds_needle_pierces_and_suction_sucks():
+    clamp = steps(run_shipped("plate8-clamp", '<clamped name="yes" body="tube_right"/><held name="held" body="tube_right" '
+                              'time="0.1"/><held name="long" body="tube_right" time="60"/>', 800))
+    assert clamp["yes"]["phase"] == clamp["held"]["phase"] == "done" and clamp["long"]["phase"] == "open", clamp
+    near(clamp["held"]["done_s"] - clamp["yes"]["done_s"], 0.1, 0.005)
+    needle = steps(run_shipped("suture", '<pierced name="yes" body="skin"/><pierced name="thrice" body="skin" '
+                               'count="1000"/><pierced name="no" body="thread"/>', 1500))
+    assert needle["yes"]["phase"] == "done" and needle["thrice"]["phase"] == needle["no"]["phase"] == "open", needle
+
+
+@check
+def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
+    reports = [json.loads(spore("run", SCENES / "exercise-salpingectomy.spore", "-n", 5300, "--json", "--threads", n).stdout)
+               for n in (1, 2)]
+    exercise = reports[0]["exercise"]
+    assert exercise == reports[1]["exercise"] and reports[0]["state_hash"] == reports[1]["state_hash"]
+    assert exercise["phase"] == "done" and exercise["passed"], exercise
+    times = [step["done_s"] for step in exercise["steps"]]
+    assert len(times) == 5 and times == sorted(times), times
+    graded = {m["name"]: (m["good"], m["pass"]) for m in exercise["metrics"] if m["good"]}
+    assert graded["time"] == (249, 401) and graded["path"] == (6.8, 8.3), graded
+    assert metrics(exercise)["errors"]["value"] == metrics(exercise)["drops"]["value"] == 0
+
+
+@check
+def what_comes_before_its_turn_is_an_error():
+    exercise = run_shipped("exercise-salpingectomy", '<lifted name="high" body="adnexa" height="5"/>'
+                           '<coagulated name="early" body="adnexa" after="high"/><cut name="cut" body="ovary"/>'
+                           '<errors name="errors"/>', 800)
+    assert metrics(exercise)["errors"]["value"] == 1 and exercise["score"] == 0, exercise
+    assert [s["phase"] for s in exercise["steps"]] == ["open", "waiting", "open"], exercise
+
+
+@check
+def what_jaws_lose_is_a_drop():
+    drops = '<drops name="drops" body="adnexa"/><grasped name="g" body="adnexa"/><lifted name="never" body="adnexa" height="5"/>'
+    assert metrics(run_shipped("exercise-salpingectomy", drops, 600))["drops"]["value"] == 0
+    text = (SCENES / "exercise-salpingectomy.spore").read_text()
+    (SCENES / "exercise-salpingectomy.spore").write_text(text.replace('strength="4"', 'strength="0.1"'))
+    try:
+        lost = run_shipped("exercise-salpingectomy", drops, 600)
+    finally:
+        (SCENES / "exercise-salpingectomy.spore").write_text(text)
+    assert metrics(lost)["drops"]["value"] > 0 and steps(lost)["g"]["phase"] == "done", lost
+
+
+@check
+def reports_are_a_table_an_object_and_a_page_of_their_own():
+    parts = ('<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/><time_taken name="t" good="2 s" '
+             'source="a &lt;b&gt; &quot;c&quot;"/><path_length name="p"/>')
+    for kind in "csv", "json", "html":
+        exercise = run(parts, 200, "", "--report", f"r.{kind}")
+    rows = list(csv.DictReader((WORK / "r.csv").read_text().splitlines()))
+    assert [r["part"] for r in rows] == ["step", "metric", "metric", "score"] and rows[1]["source"] == 'a <b> "c"', rows
+    assert float(rows[0]["value"]) == exercise["steps"][0]["done_s"] and float(rows[3]["value"]) == exercise["score"]
+    assert json.loads((WORK / "r.json").read_text())["exercise"] == exercise
+    page = (WORK / "r.html").read_text()
+    root = xml.etree.ElementTree.fromstring(page.replace("<!DOCTYPE html>", ""))
+    assert len(root.findall(".//svg")) == 2 and "http" not in page and "src=" not in page, page
+
+
+def refused(parts, place, words, command="run"):
+    (WORK / "scene.spore").write_text(SCENE % ("", parts))
+    done = spore(command, "scene.spore", status=2 if command == "run" else 1)
+    said = done.stderr if command == "run" else done.stdout
+    assert all(word in said for word in words) and place in said, said
+
+
+@check
+def bad_exercises_are_refused_with_place_and_remedy():
+    reached = '<reached name="%s" tool="one" after="%s"/>'
+    for parts, words in ((reached % ("a", "b") + reached % ("b", "a"), ("waits for", "let one of them")),
+                         (reached % ("a", "a"), ("waits for",)),
+                         ('<touched name="a" body="gone"/>', ("gone", "names nothing")),
+                         ('<touched name="a"/>', ("names no body",)),
+                         ('<reached name="a"/>', ("names no body or tool",)),
+                         ('<bagged name="a" body="tip"/>', ("names no container",)),
+                         ('<out_of_view name="a"/>', ("names no camera",)),
+                         ('<blood_lost name="a" body="tip"/>', ("no fluid",)),
+                         ('<time_taken name="a" good="249"/>', ("no unit", '"s"')),
+                         ('<time_taken name="a" good="249 N"/>', ("unit", '"s"')),
+                         ('<time_taken name="a" good="fast"/>', ("no number",)),
+                         ('<time_taken name="a" good="2 min" pass="1 s"/>', ("worse than",))):
+        for command in "run", "check":
+            refused(parts, "scene.spore:13:", words, command)
+    assert spore("run", "scene.spore", "--report", "x.txt", status=2).stderr
+    (WORK / "scene.spore").write_text(SCENE % ("", ""))
+    assert "no exercise" in spore("run", "scene.spore", "--report", "x.html", status=2).stderr
+    assert "exercise" not in json.loads(spore("run", "scene.spore", "-n", "1", "--json").stdout)
+
+
+main()
