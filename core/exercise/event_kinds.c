@@ -216,7 +216,7 @@ static const SporeParameter passed_rows[] = {
     BODY_OR_TOOL,
     SPORE_ROW_PLACE(SporeEventFields, point, N_("Middle of the ring.")),
     SPORE_ROW_DIRECTION(SporeEventFields, direction, 1, 0, 0, N_("Which way through the ring.")),
-    SPORE_ROW_REAL(SporeEventFields, radius, "m", 1e-6, 10, 0.01, N_("Of the ring."))};
+    SPORE_ROW_REAL(SporeEventFields, radius, "m", 1e-6, 10, 0.01, N_("Radius of the ring."))};
 static const SporeEventKind passed = {.element = "passed_through",
                                       .label = N_("Passed through"),
                                       .doc = N_("A body or an instrument passes through a ring."),
@@ -233,8 +233,8 @@ static const SporeParameter reached_rows[] = {
     SPORE_ROW_REFERENCE(SporeEventFields, tool, tool, SPORE_INSTRUMENT_ELEMENTS,
                         N_("Instrument whose first body has to get there, where no body is named.")),
     BODY_OR_TOOL,
-    SPORE_ROW_PLACE(SporeEventFields, point, N_("Where to.")),
-    SPORE_ROW_REAL(SporeEventFields, radius, "m", 1e-6, 10, 0.01, N_("How near.")),
+    SPORE_ROW_PLACE(SporeEventFields, point, N_("Place to reach.")),
+    SPORE_ROW_REAL(SporeEventFields, radius, "m", 1e-6, 10, 0.01, N_("How near it has to come.")),
     TIME(0, N_("How long it has to stay there without a break."))};
 static const SporeEventKind reached = {.element = "reached",
                                        .label = N_("Reached"),

@@ -160,7 +160,7 @@ static const Bad bad[] = {
     {"model-outside", SCENE("<bodies><body name=\"a\"><particle/></body></bodies>"), "bad.spore:2:24", "<mechanical>"},
     {"unknown-attribute", SCENE("<bodies><body name=\"a\"\n   rol=\"active\"/></bodies>"), "bad.spore:3:4",
      "did you mean \"role\"?"},
-    {"unknown-attribute-far", SCENE("<effects zzzzzz=\"1\"/>"), "bad.spore:2:11", "expected none"},
+    {"unknown-attribute-far", SCENE("<effects zzzzzz=\"1\"/>"), "bad.spore:2:10", "expected none"},
     {"columns-count-characters", SCENE("<meta title=\"\xC3\xA9\xC3\xA9\xC3\xA9\" zzzzzzzzz=\"1\"/>"), "bad.spore:2:19",
      "zzzzzzzzz"},
     {"out-of-range",
