@@ -40,13 +40,6 @@ static void destroy_models(const SporeCompiler *compiler) {
   }
 }
 
-gboolean spore_compiler_say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
-  SporeObject *object = *fault->place ? spore_document_by_path(compiler->document, fault->place) : NULL;
-  if (!object) return spore_error_propagate(fault, compiler->error);
-  g_autofree char *where = spore_object_where(object);
-  return spore_error_raise(compiler->error, fault->code, where, "%s", fault->message);
-}
-
 static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
   SporeEnvironmentFields environment;
   SporeWorldDescription description = {.cancel = compiler->cancel,

@@ -20,6 +20,13 @@ gboolean spore_compiler_pass_on(SporeCompiler *compiler, const SporeObject *obje
                            fault->message);
 }
 
+gboolean spore_compiler_say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
+  SporeObject *object = *fault->place ? spore_document_by_path(compiler->document, fault->place) : NULL;
+  if (!object) return spore_error_propagate(fault, compiler->error);
+  g_autofree char *where = spore_object_where(object);
+  return spore_error_raise(compiler->error, fault->code, where, "%s", fault->message);
+}
+
 /* Nearest name among the objects that a reference may name, or NULL. */
 static const char *nearest_name(const SporeDocument *document, const char *elements, const char *name) {
   g_autoptr(GPtrArray) names = g_ptr_array_new();
