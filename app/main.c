@@ -30,6 +30,7 @@ static const Command commands[] = {
 #endif
     {"import", spore_command_import, N_("Make a scene from organ meshes")},
     {"edit", spore_command_edit, N_("Change a scene: properties, what holds an organ, a probe")},
+    {"export", spore_command_export, N_("Write a scene for other programs, and for running it without SPORE")},
     {"advise", spore_command_advise, N_("Say what a scene simulates that nobody would miss")},
     {"sweep", spore_command_sweep, N_("Run many scenes and settings, and put the results together")},
     {"centreline", spore_command_centreline, N_("Find the middle line of a tubular organ")},

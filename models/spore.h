@@ -27,6 +27,7 @@
 #include "core/mesh/mesh.h"
 #include "core/body/mapping.h"
 #include "core/body/model.h"
+#include "core/runtime/runtime.h"
 #include "core/sim/world.h"
 #include "models/registry.h"
 

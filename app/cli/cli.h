@@ -98,6 +98,7 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv);
 int spore_command_centreline(SporeCli *cli, int argc, char **argv);
 int spore_command_check(SporeCli *cli, int argc, char **argv);
 int spore_command_edit(SporeCli *cli, int argc, char **argv);
+int spore_command_export(SporeCli *cli, int argc, char **argv);
 int spore_command_import(SporeCli *cli, int argc, char **argv);
 int spore_command_models(SporeCli *cli, int argc, char **argv);
 int spore_command_plan(SporeCli *cli, int argc, char **argv);

@@ -94,7 +94,7 @@ SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneO
   return document;
 }
 
-static gboolean read_track(const char *file, SporeTrack *track, GError **error) {
+gboolean spore_cli_read_track(const char *file, SporeTrack *track, GError **error) {
   g_autoptr(GBytes) content = spore_cli_read_file(file, _("a track"), error);
   if (!content) return FALSE;
   gsize size = 0;
@@ -108,7 +108,7 @@ SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOption
   g_autoptr(SporeRun) run = g_new0(SporeRun, 1);
   run->document = spore_cli_load(cli, file, options, error);
   if (!run->document) return NULL;
-  if (options->input && !read_track(options->input, &run->input, error)) return NULL;
+  if (options->input && !spore_cli_read_track(options->input, &run->input, error)) return NULL;
   run->pool = spore_pool_create(threads);
   if (!run->pool) {
     spore_error_raise(error, SPORE_ERROR_MEMORY, "--threads", _("%d threads are not to be had; ask for fewer"),

@@ -42,6 +42,9 @@ SporeObject *spore_cli_find_body(SporeDocument *document, const char *place, con
 /* Loads a scene and applies --set, --dt and --integrator. */
 SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error);
 
+/* Reads the file of a track over an empty one. */
+gboolean spore_cli_read_track(const char *file, SporeTrack *track, GError **error);
+
 /* A scene that is ready to run. Everything in it lives as long as the run. */
 typedef struct SporeRun {
   SporeDocument *document;

@@ -15,7 +15,7 @@ static gboolean go_on(SporeCompiler *compiler) {
   return spore_error_raise(compiler->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
 }
 
-static gboolean describe(SporeCompiler *compiler) {
+gboolean spore_compiler_describe(SporeCompiler *compiler) {
   SporeObject *bodies = spore_document_section(compiler->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     if (!spore_compiler_add_body(compiler, spore_object_child(bodies, i)) || !go_on(compiler)) return FALSE;
@@ -31,7 +31,7 @@ static gboolean describe(SporeCompiler *compiler) {
   return TRUE;
 }
 
-static void destroy_models(const SporeCompiler *compiler) {
+void spore_compiler_destroy_models(const SporeCompiler *compiler) {
   for (guint i = 0; i < compiler->bodies->len; i++) {
     const SporeBodyDescription *body = &g_array_index(compiler->bodies, SporeBodyDescription, i);
     SporeModel *const models[] = {body->model, body->lod.model[SPORE_LOD_COARSE], body->lod.model[SPORE_LOD_MEDIUM]};
@@ -40,7 +40,7 @@ static void destroy_models(const SporeCompiler *compiler) {
   }
 }
 
-static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
+SporeWorldDescription spore_compiler_world(const SporeCompiler *compiler) {
   SporeEnvironmentFields environment;
   SporeWorldDescription description = {.cancel = compiler->cancel,
                                        .unpruned = compiler->unpruned,
@@ -57,6 +57,11 @@ static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
   spore_object_fields(spore_document_section(compiler->document, "environment"), &environment);
   spore_object_fields(spore_document_section(compiler->document, "solver"), &description.solver);
   description.gravity = spore_vec3_load(environment.gravity);
+  return description;
+}
+
+SporeWorld *spore_compiler_create(SporeCompiler *compiler, SporePool *pool) {
+  const SporeWorldDescription description = spore_compiler_world(compiler);
   SporeError fault = SPORE_ERROR_INIT;
   SporeWorld *world = spore_world_create(&description, pool, &fault);
   if (!world) spore_compiler_say_in_scene(compiler, &fault);
@@ -72,9 +77,9 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
   SporeSimulation *simulation = g_new0(SporeSimulation, 1);
   simulation->devices = g_ptr_array_new_with_free_func(close_device);
   simulation->track = g_new0(SporeTrack, 1);
-  gboolean done = describe(compiler) && spore_compiler_merge_input(compiler, simulation->track, input);
-  if (done) simulation->world = create_world(compiler, pool);
-  if (!simulation->world) destroy_models(compiler);
+  gboolean done = spore_compiler_describe(compiler) && spore_compiler_merge_input(compiler, simulation->track, input);
+  if (done) simulation->world = spore_compiler_create(compiler, pool);
+  if (!simulation->world) spore_compiler_destroy_models(compiler);
   simulation->body_object = g_new0(guint32, MAX(compiler->objects->len, 1));
   for (guint i = 0; i < compiler->objects->len; i++)
     simulation->body_object[i] = spore_object_id(g_ptr_array_index(compiler->objects, i));
@@ -85,26 +90,36 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
   return NULL;
 }
 
+void spore_compiler_init(SporeCompiler *compiler) {
+  compiler->objects = g_ptr_array_new();
+  compiler->bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
+  compiler->links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
+  compiler->tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
+  compiler->emitters = g_array_new(FALSE, TRUE, sizeof(SporeEmitterDescription));
+  compiler->eyes = g_array_new(FALSE, TRUE, sizeof(SporeEyeDescription));
+  compiler->recipes = g_array_new(FALSE, TRUE, sizeof(SporeModelRecipe));
+  compiler->spheres = g_ptr_array_new_with_free_func(free_spheres);
+  compiler->kept = g_ptr_array_new_with_free_func(g_free);
+}
+
+void spore_compiler_clear(SporeCompiler *compiler) {
+  g_ptr_array_unref(compiler->objects);
+  g_array_unref(compiler->bodies);
+  g_array_unref(compiler->links);
+  g_array_unref(compiler->tools);
+  g_array_unref(compiler->emitters);
+  g_array_unref(compiler->eyes);
+  g_array_unref(compiler->recipes);
+  g_ptr_array_unref(compiler->spheres);
+  g_ptr_array_unref(compiler->kept);
+}
+
 static SporeSimulation *compile(SporeDocument *document, SporePool *pool, const SporeTrack *input, gboolean unpruned,
                                 const SporeCancel *cancel, GError **error) {
   SporeCompiler compiler = {.document = document, .unpruned = unpruned, .cancel = cancel, .error = error};
-  compiler.objects = g_ptr_array_new();
-  compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
-  compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
-  compiler.tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
-  compiler.emitters = g_array_new(FALSE, TRUE, sizeof(SporeEmitterDescription));
-  compiler.eyes = g_array_new(FALSE, TRUE, sizeof(SporeEyeDescription));
-  compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
-  compiler.fields = g_ptr_array_new_with_free_func(g_free);
+  spore_compiler_init(&compiler);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
-  g_ptr_array_unref(compiler.objects);
-  g_array_unref(compiler.bodies);
-  g_array_unref(compiler.links);
-  g_array_unref(compiler.tools);
-  g_array_unref(compiler.emitters);
-  g_array_unref(compiler.eyes);
-  g_ptr_array_unref(compiler.spheres);
-  g_ptr_array_unref(compiler.fields);
+  spore_compiler_clear(&compiler);
   return simulation;
 }
 

@@ -116,7 +116,7 @@ static gboolean describe_region(SporeCompiler *compiler, const SporeObject *obje
                      scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
 }
 
-/* Describes the regions of a body for `model`. The caller frees regions->regions. */
+/* Describes the regions of a body for `model`. */
 static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, const SporeObject *model,
                              SporeRegions *regions) {
   const SporeObject *unit = spore_object_child_of(body, "regions");
@@ -128,7 +128,7 @@ static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, c
         _("%s has no regions; expected tetrahedra or finite differences; choose one of those or take the "
           "regions out"),
         spore_object_type(model)->element);
-  *regions = (SporeRegions){count, g_new0(SporeRegion, count)};
+  *regions = (SporeRegions){count, spore_compiler_keep(compiler, count * sizeof(SporeRegion))};
   for (guint i = 0; i < count; i++)
     if (!describe_region(compiler, spore_object_child(unit, i), model, &regions->regions[i])) return FALSE;
   return TRUE;
@@ -148,7 +148,24 @@ static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, 
   return TRUE;
 }
 
-static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+/* Describes what a model of a body is made from. unit: what names its geometry, the mechanical unit or one of the
+ * levels of detail. */
+static gboolean describe_model(SporeCompiler *compiler, const SporeObject *model, const SporeObject *unit,
+                               SporeModelRecipe *recipe) {
+  const SporeModelType *type = spore_object_type(model)->model;
+  const SporeObject *mechanical = spore_object_parent(model);
+  SporeRegions *regions = spore_compiler_keep(compiler, sizeof *regions);
+  double *corners = spore_compiler_keep(compiler, 12 * sizeof *corners);
+  void *fields = spore_compiler_keep(compiler, type->parameters.size);
+  *recipe = (SporeModelRecipe){type, {.regions = regions, .cancel = compiler->cancel}, fields};
+  spore_object_fields(model, fields);
+  return find_geometry(compiler, unit, type, corners, &recipe->geometry) &&
+         find_root(compiler, mechanical, type, &recipe->geometry) &&
+         find_regions(compiler, spore_object_parent(mechanical), model, regions);
+}
+
+static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description,
+                           SporeModelRecipe *recipe) {
   const SporeObject *object = spore_body_model_object(body);
   if (!object)
     return spore_compiler_refuse(
@@ -157,65 +174,50 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
           "or make its role unmovable"),
         spore_object_name(body));
   const SporeObject *mechanical = spore_object_parent(object);
-  const SporeModelType *type = spore_object_type(object)->model;
-  SporeRegions regions = {0};
-  double corners[12];
-  SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
-  gboolean described = find_geometry(compiler, mechanical, type, corners, &geometry) &&
-                       find_root(compiler, mechanical, type, &geometry) &&
-                       find_regions(compiler, body, object, &regions);
-  g_autofree SporeRegion *owned = regions.regions;
-  if (!described) return FALSE;
+  if (!describe_model(compiler, object, mechanical, recipe)) return FALSE;
   SporeError fault = SPORE_ERROR_INIT;
-  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
-  spore_object_fields(object, fields);
-  description->model = spore_model_create(type, &geometry, fields, &fault);
+  description->model = spore_model_create(recipe->type, &recipe->geometry, recipe->fields, &fault);
   description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
   description->substeps = (size_t)spore_object_number(mechanical, "substeps");
-  if (description->model && check_regions(compiler, body, &regions)) return TRUE;
-  if (description->model) {
-    type->destroy(description->model);
-    description->model = NULL;
-    return FALSE;
-  }
-  return spore_compiler_pass_on(compiler, object, &fault);
+  if (!description->model) return spore_compiler_pass_on(compiler, object, &fault);
+  if (check_regions(compiler, body, recipe->geometry.regions)) return TRUE;
+  recipe->type->destroy(description->model);
+  description->model = NULL;
+  return FALSE;
 }
 
 /* Makes one level of detail: the body's model with the settings that differ. */
-static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
-  const SporeModelType *type = spore_object_type(model)->model;
-  SporeRegions regions = {0};
-  double corners[12];
-  SporeGeometry geometry = {.regions = &regions, .cancel = compiler->cancel};
+static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level,
+                           SporeModelRecipe *recipe, SporeModel **made) {
   SporeLodFields level_fields;
   SporeError fault = SPORE_ERROR_INIT;
   spore_object_fields(level, &level_fields);
   const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
-  const SporeObject *body = spore_object_parent(spore_object_parent(model));
-  gboolean described = find_geometry(compiler, from, type, corners, &geometry) &&
-                       find_root(compiler, spore_object_parent(model), type, &geometry) &&
-                       find_regions(compiler, body, model, &regions);
-  g_autofree SporeRegion *owned = regions.regions;
-  if (!described) return FALSE;
-  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
-  spore_object_fields(model, fields);
-  if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))
-    *made = spore_model_create(type, &geometry, fields, &fault);
+  if (!describe_model(compiler, model, from, recipe)) return FALSE;
+  if (spore_level_settings_apply(&recipe->type->parameters, level_fields.settings, (void *)recipe->fields, &fault))
+    *made = spore_model_create(recipe->type, &recipe->geometry, recipe->fields, &fault);
   return *made || spore_compiler_pass_on(compiler, level, &fault);
+}
+
+gboolean spore_compiler_visual(SporeCompiler *compiler, const SporeObject *body, const SporeTriangleMesh **mesh) {
+  const SporeObject *visual = spore_object_child_of(body, "visual");
+  SporeObject *asset = NULL;
+  *mesh = NULL;
+  if (visual && !spore_compiler_resolve(compiler, visual, "mesh", &asset)) return FALSE;
+  if (asset) *mesh = spore_document_mesh(compiler->document, asset, compiler->error);
+  return *mesh || !asset;
 }
 
 /* Finds the drawn vertices of the body. */
 static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, SporeLodDescription *levels) {
-  const SporeObject *visual = spore_object_child_of(body, "visual");
-  SporeObject *asset = NULL;
-  if (!visual) return TRUE;
-  if (!spore_compiler_resolve(compiler, visual, "mesh", &asset)) return FALSE;
-  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(compiler->document, asset, compiler->error) : NULL;
+  const SporeTriangleMesh *mesh;
+  if (!spore_compiler_visual(compiler, body, &mesh)) return FALSE;
   if (mesh) levels->surface = mesh->vertices, levels->surface_count = mesh->vertex_count;
-  return mesh || !asset;
+  return TRUE;
 }
 
-static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description,
+                           SporeModelRecipe recipes[SPORE_LOD_COUNT]) {
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = spore_body_model_object(body);
   SporeLodDescription *levels = &description->lod;
   SporeFidelityFields fields;
@@ -233,7 +235,7 @@ static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, Spo
     if (level && !model)
       return spore_compiler_refuse(compiler, level,
                                    _("the body does not move by physics, so that it has no levels; take them out"));
-    if (level && !make_level(compiler, model, level, &levels->model[k])) return FALSE;
+    if (level && !make_level(compiler, model, level, &recipes[k], &levels->model[k])) return FALSE;
   }
   if (levels->first != SPORE_LOD_FINE && !levels->model[levels->first])
     return spore_compiler_refuse(compiler, fidelity,
@@ -290,12 +292,15 @@ gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
       .pose = {spore_vec3_load(fields.position), spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))},
       .velocity = spore_vec3_load(fields.velocity),
       .spin = spore_vec3_load(fields.spin)};
+  SporeModelRecipe recipes[SPORE_LOD_COUNT] = {0};
   if (!add_collision(compiler, body, &description)) return FALSE;
-  if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
+  if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description, &recipes[SPORE_LOD_FINE]))
+    return FALSE;
   description.effect =
       spore_fidelity_state(compiler->document, spore_object_child_of(body, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
-  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description);
+  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description, recipes);
   g_ptr_array_add(compiler->objects, body);
   g_array_append_val(compiler->bodies, description);
+  g_array_append_vals(compiler->recipes, recipes, SPORE_LOD_COUNT);
   return added;
 }

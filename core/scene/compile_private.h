@@ -2,6 +2,7 @@
 #ifndef SPORE_SCENE_COMPILE_PRIVATE_H
 #define SPORE_SCENE_COMPILE_PRIVATE_H
 
+#include "core/runtime/runtime.h"
 #include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
 
@@ -15,11 +16,27 @@ typedef struct SporeCompiler {
   GArray *emitters;   /* of SporeEmitterDescription */
   GArray *eyes;       /* of SporeEyeDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
-  GPtrArray *fields;  /* parameters of tools; the tools' descriptions borrow them */
+  GArray *recipes;    /* of SporeModelRecipe, SPORE_LOD_COUNT a body */
+  GPtrArray *kept;    /* what descriptions and recipes borrow */
   const SporeCancel *cancel;
   gboolean unpruned; /* see SporeWorldDescription */
   GError **error;
 } SporeCompiler;
+
+/* Empties a compilation whose document, input of users and error are set. */
+void spore_compiler_init(SporeCompiler *compiler);
+void spore_compiler_clear(SporeCompiler *compiler);
+/* Zeroed memory that lives as long as the compilation. */
+gpointer spore_compiler_keep(SporeCompiler *compiler, gsize size);
+/* Describes all of the document. FALSE with the error. */
+gboolean spore_compiler_describe(SporeCompiler *compiler);
+/* The world of what was described; borrows it. */
+SporeWorldDescription spore_compiler_world(const SporeCompiler *compiler);
+/* Makes that world, which owns the models then. Without it they are to be destroyed. NULL with the error. */
+SporeWorld *spore_compiler_create(SporeCompiler *compiler, SporePool *pool);
+void spore_compiler_destroy_models(const SporeCompiler *compiler);
+/* The mesh that shows the body; *mesh is NULL where none does. */
+gboolean spore_compiler_visual(SporeCompiler *compiler, const SporeObject *body, const SporeTriangleMesh **mesh);
 
 /* Sets the error to a message about the object, with its place in the file. Returns FALSE. */
 gboolean spore_compiler_refuse(SporeCompiler *compiler, const SporeObject *object, const char *format, ...)

@@ -5,6 +5,12 @@
 
 #include "core/base/name.h"
 
+gpointer spore_compiler_keep(SporeCompiler *compiler, gsize size) {
+  gpointer memory = g_malloc0(MAX(size, 1));
+  g_ptr_array_add(compiler->kept, memory);
+  return memory;
+}
+
 gboolean spore_compiler_refuse(SporeCompiler *compiler, const SporeObject *object, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);

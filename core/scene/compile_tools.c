@@ -31,8 +31,7 @@ gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *obj
   SporeToolDescription tool = {.type = spore_tool_type_find(element)};
   if (strcmp(element, "camera") == 0) return add_eye(compiler, object);
   if (!tool.type) return TRUE; /* a probe only moves its body */
-  gpointer fields = g_malloc0(tool.type->parameters.size);
-  g_ptr_array_add(compiler->fields, fields);
+  gpointer fields = spore_compiler_keep(compiler, tool.type->parameters.size);
   spore_object_fields(object, fields);
   tool.fields = fields;
   if (!find_bodies(compiler, object, &tool)) return FALSE;

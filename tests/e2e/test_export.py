@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""Scenes exported for other programs. test_export.py SPORE PLAYER SCENES"""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from tap import check, is_sanitized, main, wait_for_work
+
+SPORE, PLAYER, SCENES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), pathlib.Path(sys.argv[3])
+FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-export-"))
+STEPS = 40
+
+
+def run(*command, status=0):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=250)
+    assert done.returncode == status, (command, done.returncode, done.stdout[-500:], done.stderr[-500:])
+    return done.stderr if status == 2 else done.stdout
+
+
+def export(scene, *options, status=0):
+    file = FOLDER / (pathlib.Path(scene).stem + ".run")
+    said = run(SPORE, "export", scene, "--format", "runtime", "-o", file, *options, status=status)
+    return file, said
+
+
+def state(*command):
+    done = subprocess.run([str(word) for word in command] + ["--json"], capture_output=True, text=True, timeout=250)
+    assert done.returncode in (0, 1), (command, done.stderr)
+    return json.loads(done.stdout)
+
+
+@check
+def every_shipped_scene_plays(*_):
+    """Every shipped scene, written as a runtime file, plays to the same bits"""
+    scenes = sorted(SCENES.glob("*.spore"))
+    for scene in scenes[::4] if is_sanitized(SPORE) else scenes:
+        file, said = export(scene, "--json")
+        report = json.loads(said)
+        assert any("exercise" in words for words in report["lost"]) == ("<exercise " in scene.read_text()), scene
+        assert report["written"] == [{"file": str(file), "bytes": file.stat().st_size}] and report["left_out"]
+        played, alone = state(PLAYER, file, "--steps", STEPS), state(SPORE, "run", scene, "-n", STEPS)
+        assert played["state_hash"] == alone["state_hash"], scene
+        assert played["steps"] == STEPS and played["bodies"]
+        file.unlink()
+
+
+@check
+def settings_and_input_come_along(*_):
+    """Settings, another step and another input come along"""
+    scene = SCENES / "plate1-ovary.spore"
+    options = ["--set", "environment/gravity=0 -5 0", "--dt", "0.002", "--integrator", "bdf2", "--input", SCENES / "plate4-deformed-ovary" / "plate4-deformed-ovary.track"]
+    file, _ = export(scene, *options)
+    assert state(PLAYER, file, "--steps", STEPS)["state_hash"] == state(SPORE, "run", scene, "-n", STEPS, *options)["state_hash"]
+    names = state(PLAYER, file, "--steps", 0)
+    assert "ovary_right" in names["bodies"] and any(visual["body"] == "ovary_right" and visual["vertices"] > 100 for visual in names["visuals"])
+
+
+@check
+def bad_input(*_):
+    """Bad input: one line, status 2, and nothing is written"""
+    scene = SCENES / "minimal.spore"
+    for options, word in [([], "--format"), (["--format", "nope", "-o", FOLDER / "f"], "nope"), (["--format", "runtime"], "-o"),
+                          (["--format", "runtime", "-o", FOLDER / "none" / "f"], "none"), (["--format", "runtime", "-o", scene], "this is the input")]:
+        said = run(SPORE, "export", scene, *options, status=2)
+        assert word in said and said.count("\n") == 1, said
+    assert not (FOLDER / "f").exists()
+    assert "gone" in run(SPORE, "export", FOLDER / "gone.spore", "--format", "runtime", "-o", FOLDER / "f", status=2)
+    file, _ = export(scene)
+    for arguments, word in [([], "no file"), ([FOLDER / "gone"], "cannot be read"), ([file, "--steps", "x"], "--steps"), ([file, "--nope"], "--nope"),
+                            ([scene], "no runtime file"), ([file, file], "more than one")]:
+        said = run(PLAYER, *arguments, status=2)
+        assert word in said and said.count("\n") == 1, said
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+    assert "checksum" in run(PLAYER, file, status=2)
+    file.write_bytes(content[:1000])
+    assert "copy it again" in run(PLAYER, file, status=2)
+
+
+@check
+def the_player_ends_on_signals(*_):
+    """Ctrl-C and SIGTERM end the player"""
+    file, _ = export(SCENES / "plate4-deformed-ovary.spore")
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([PLAYER, file, "--steps", "1000000000"], stdout=subprocess.DEVNULL)
+        wait_for_work(process)
+        process.send_signal(number)
+        assert process.wait(timeout=60) == 130
+
+
+try:
+    main()
+finally:
+    shutil.rmtree(FOLDER, ignore_errors=True)
