@@ -76,14 +76,6 @@ static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
-/* Editing by hand works on the scene at its start. */
-static gboolean may_edit(SporeWindow *self) {
-  SporeSession *session = spore_player_get_session(self->player);
-  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
-  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
-  return FALSE;
-}
-
 static void act_add_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeObject *body = spore_window_body_to_work_on(self);
@@ -97,7 +89,7 @@ static void act_place_region(GSimpleAction *action, GVariant *parameter, gpointe
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
   SporeObject *region = spore_edit_find_region(document_of(self), g_variant_get_string(parameter, NULL), &error);
-  if (spore_window_failed(self, error) || !may_edit(self)) return;
+  if (spore_window_failed(self, error) || !spore_window_may_edit(self)) return;
   g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("edit"));
   spore_viewport_edit_region(SPORE_VIEWPORT(self->viewport), region);
   spore_window_show_hint(self);
@@ -188,7 +180,7 @@ static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
   const char *name = g_variant_get_string(state, NULL);
   gboolean edit = g_str_equal(name, "edit");
-  if (edit && !may_edit(self)) return;
+  if (edit && !spore_window_may_edit(self)) return;
   spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), edit                         ? SPORE_VIEWPORT_TOOL_EDIT
                                                           : g_str_equal(name, "probe") ? SPORE_VIEWPORT_TOOL_PROBE
                                                                                        : SPORE_VIEWPORT_TOOL_SELECT);

@@ -62,6 +62,7 @@ void spore_window_release_document(SporeWindow *self) {
 }
 
 void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
+  spore_window_end_link(self);
   spore_window_release_document(self);
   self->document = spore_editor_document_new(document);
   self->player = spore_player_new(self->document);

@@ -167,6 +167,7 @@ static void change_pick_places(GSimpleAction *action, GVariant *state, gpointer 
   gboolean picking = g_variant_get_boolean(state) && spore_window_picks_places(self);
   g_simple_action_set_state(action, g_variant_new_boolean(picking));
   self->picked = (SporeViewportPlaces){0};
+  spore_window_end_link(self);
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
   show_places(self);
   show_candidate(self);
@@ -188,7 +189,7 @@ static void act_automatic_places(GSimpleAction *action, GVariant *parameter, gpo
 
 static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   SporeObject *body = spore_generator_get_body(self->generator);
-  if (!spore_window_is_picking(self) || !body) return;
+  if (!spore_window_is_picking(self) || !body || !id) return;
   if (spore_object_id(body) != id) {
     g_autofree char *text = g_strdup_printf(_("That is another organ; click on “%s”"), spore_object_name(body));
     spore_window_complain(self, text);

@@ -17,6 +17,15 @@
 #include "ui/spore-window.h"
 #include "ui/viewport/spore-viewport.h"
 
+/* A link whose ends are being picked. */
+typedef struct SporeLinkDraft {
+  const SporeObjectType *type; /* NULL: none */
+  guint32 link;                /* id of the link that is tied elsewhere; 0: a new one */
+  guint count;                 /* of the ends so far */
+  guint32 bodies[2];           /* ids; 0: the scene */
+  SporeVec3 places[2];         /* in the scene, m */
+} SporeLinkDraft;
+
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text,
@@ -34,7 +43,9 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  GMenu *mesh_operations;     /* in the menu */
+  GMenu *mesh_operations; /* in the menu */
+  GMenu *link_kinds;
+  SporeLinkDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
@@ -62,9 +73,18 @@ SporeObject *spore_window_body_to_work_on(SporeWindow *self);
 /* Whether places on the organ can be picked for what the generator makes, and whether the user picks them now. */
 gboolean spore_window_picks_places(SporeWindow *self);
 gboolean spore_window_is_picking(SporeWindow *self);
+/* Editing in the view works on the scene at its start. FALSE: the user is told. */
+gboolean spore_window_may_edit(SporeWindow *self);
 void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 /* Enables the actions that can be done now. */
 void spore_window_update_actions(SporeWindow *self);
+
+/* spore-window-links.c: links made by picking. */
+void spore_window_add_link_actions(SporeWindow *self);
+/* An entry for each kind of link that the schema has. */
+void spore_window_fill_link_menu(SporeWindow *self);
+/* Forgets the link whose ends are being picked, if any. */
+void spore_window_end_link(SporeWindow *self);
 
 /* spore-window-generate.c: generators. */
 void spore_window_add_generator_actions(SporeWindow *self);

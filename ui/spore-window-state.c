@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/link_edits.h"
 #include "core/scene/generated.h"
 #include "ui/spore-window-private.h"
 
@@ -116,12 +117,31 @@ gboolean spore_window_is_picking(SporeWindow *self) {
   return g_variant_get_boolean(state);
 }
 
+gboolean spore_window_may_edit(SporeWindow *self) {
+  SporeSession *session = spore_player_get_session(self->player);
+  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
+  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
+  return FALSE;
+}
+
 /* The hint. */
 
 /* What to click on, while places are picked; else NULL. */
 static const char *picking_hint(SporeWindow *self) {
   if (!spore_window_is_picking(self)) return NULL;
   return _(spore_generators[spore_generator_get_options(self->generator)->kind]->places->hints[self->picked.count]);
+}
+
+/* What to click on, while the ends of a link are picked; else NULL. g_free. */
+static char *link_hint(SporeWindow *self) {
+  const SporeLinkDraft *draft = &self->draft;
+  guint ends = draft->type ? spore_link_end_count(draft->type) : 0;
+  if (draft->count >= ends) return NULL; /* the link is being made */
+  const char *doc = spore_link_end_doc(draft->type, draft->count);
+  if (!draft->count)
+    return g_strdup_printf(_("%s, click %u of %u: %s Escape ends"), _(draft->type->label), 1, ends, doc);
+  return g_strdup_printf(_("%s, click %u of %u: %s Beside the bodies is the scene; Escape goes back"),
+                         _(draft->type->label), draft->count + 1, ends, doc);
 }
 
 static const char *hint_for(SporeWindow *self) {
@@ -148,7 +168,8 @@ static const char *hint_for(SporeWindow *self) {
 
 void spore_window_show_hint(SporeWindow *self) {
   guint hidden = spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport));
-  const char *hint = hint_for(self);
+  g_autofree char *of_link = link_hint(self);
+  const char *hint = of_link ? of_link : hint_for(self);
   g_autofree char *text = hidden ? g_strdup_printf(ngettext("%u body is hidden, A shows all; %s",
                                                             "%u bodies are hidden, A shows all; %s", hidden),
                                                    hidden, hint)
@@ -212,6 +233,8 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "rename-dialog", named);
   update_generator(self, bodies);
   set_enabled(self, "add-pin", bodies);
+  set_enabled(self, "add-link", bodies);
+  set_enabled(self, "tie-link", spore_link_is(selected));
   set_enabled(self, "import", idle);
   set_enabled(self, "import-dialog", idle);
   set_enabled(self, "import-dialog-with", idle);

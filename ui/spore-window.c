@@ -173,6 +173,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_label);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
 }
 
 static void spore_window_class_init(SporeWindowClass *class) {
@@ -204,6 +205,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_file_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
+  spore_window_add_link_actions(self);
   spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));
@@ -221,6 +223,7 @@ SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *sc
   SporeWindow *self = g_object_new(SPORE_TYPE_WINDOW, "application", application, NULL);
   self->schema = schema;
   self->scenes = g_strdup(scenes);
+  spore_window_fill_link_menu(self);
   g_action_group_activate_action(G_ACTION_GROUP(self), "new", NULL);
   self->fresh = TRUE;
   return self;

@@ -10,7 +10,7 @@
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
  *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
- *               remove-region [s path]
+ *               remove-region [s path], add-link [s element], tie-link (the selected one), pick-back, pick-done
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
  *               automatic-places; apply-generated, cancel-job

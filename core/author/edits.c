@@ -39,12 +39,11 @@ static gboolean unset(SporeDocument *document, SporeObject *object, const char *
   return spore_document_unset(document, object, (guint)index, error);
 }
 
-static gboolean set_vector(SporeDocument *document, SporeObject *object, const char *property, SporeVec3 v,
-                           GError **error) {
+gboolean spore_edit_set_vector(SporeDocument *document, SporeObject *object, const char *property, SporeVec3 v,
+                               GError **error) {
   char text[3][G_ASCII_DTOSTR_BUF_SIZE];
   const double component[3] = {v.x, v.y, v.z};
-  for (int i = 0; i < 3; i++)
-    g_ascii_formatd(text[i], sizeof text[i], "%.4f", component[i]); /* a tenth of a millimetre */
+  for (int i = 0; i < 3; i++) g_ascii_formatd(text[i], sizeof text[i], "%.4f", component[i]);
   g_autofree char *joined = g_strjoin(" ", text[0], text[1], text[2], NULL);
   return spore_document_set_text(document, object, property, joined, error);
 }
@@ -203,7 +202,7 @@ static SporeObject *insert_probe(SporeDocument *document, SporeVec3 position, GE
   SporeObject *body =
       spore_document_insert(document, spore_document_section(document, "bodies"), "body", "probe", G_MAXUINT, error);
   if (!body || !spore_document_set_text(document, body, "role", "active", error) ||
-      !set_vector(document, body, "position", position, error))
+      !spore_edit_set_vector(document, body, "position", position, error))
     return NULL;
   SporeObject *collision = spore_edit_child_or_new(document, body, "collision", error);
   if (!collision || !spore_document_set_text(document, collision, "spheres", spore_object_name(spheres), error))
@@ -257,7 +256,7 @@ static SporeObject *insert_pin(SporeDocument *document, SporeObject *body, Spore
       spore_document_insert(document, spore_document_section(document, "links"), "pin", name, G_MAXUINT, error);
   g_ascii_formatd(text, sizeof text, "%.4f", radius);
   gboolean done = pin && spore_document_set_text(document, pin, "body", spore_object_name(body), error) &&
-                  set_vector(document, pin, "point", point, error) &&
+                  spore_edit_set_vector(document, pin, "point", point, error) &&
                   spore_document_set_text(document, pin, "radius", text, error);
   return done ? pin : NULL;
 }

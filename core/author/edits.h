@@ -34,6 +34,9 @@ SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GErr
 /* Draws the body in that colour: red, green and blue as in sRGB, 0 to 1. Call it inside a group. */
 gboolean spore_edit_set_colour(SporeDocument *document, SporeObject *body, const double colour[3], GError **error);
 
+/* Sets a vector to four decimals: a place to a tenth of a millimetre. */
+gboolean spore_edit_set_vector(SporeDocument *document, SporeObject *object, const char *property, SporeVec3 v,
+                               GError **error);
 /* The object of a path. Where the last part is a unit that the body lacks, the unit is made. NULL with an error. */
 SporeObject *spore_edit_object_or_unit(SporeDocument *document, const char *path, GError **error);
 /* Ends the group of an edit (done), or undoes the edits of the group (not done). Returns done. */

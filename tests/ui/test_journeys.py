@@ -1584,6 +1584,144 @@ def a_drag_beside_turns_the_view():
         assert not selects(at), "the view has turned"
 
 
+def two_balls(name, links=""):
+    """Two balls beside each other, 10 mm apart, that physics moves, without weight: nothing offers to hold them."""
+    path = folder("scenes") / name / "scene.spore"
+    path.parent.mkdir(exist_ok=True)
+    (path.parent / "ball.off").write_bytes(ball().read_bytes())
+    balls = "".join(f'<body name="{body}" position="{x} 0 0"><mechanical geometry="ball"><rigid_body/></mechanical><visual mesh="ball"/></body>'
+                    for body, x in (("left", -0.035), ("right", 0.035)))
+    path.write_text('<spore version="1.0"><environment gravity="0 0 0"/><assets><mesh name="ball" file="ball.off"/></assets>'
+                    f'<bodies>{balls}</bodies>{links}</spore>\n')
+    return path
+
+
+def on_balls(editor):
+    """Places on the screen: on the left ball, on the right one, and above both."""
+    ui.wait(lambda: editor.row("left") and editor.row("right"), "the scene")
+    editor.act("frame")
+    editor.act("view", "s", "front")
+    x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+    middle = (x + width // 2, y + height // 2)
+    return (middle[0] - height // 5, middle[1]), (middle[0] + height // 5, middle[1]), (middle[0], middle[1] - height * 3 // 10)
+
+
+def link_in(editor, element, name):
+    """The link's attributes as saved; None: there is no such link."""
+    root = xml.etree.ElementTree.fromstring(saved(editor, name))
+    found = root.findall(f"links/{element}")
+    return found[-1].attrib if found else None
+
+
+def vector(text):
+    return [float(number) for number in text.split()]
+
+
+@check
+def every_link_is_picked():
+    """each kind of link that the format has is chosen in the menu and made by clicks on the bodies that it ties; it is selected, and undone in one step."""
+    schema = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "schema"], check=True, capture_output=True, text=True).stdout
+    with start(two_balls("picked")) as editor:
+        left, right, above = on_balls(editor)
+        editor.press(editor.find("toggle button", "^Link$"))
+        kinds = [editor.find("menu item|push button|check box|radio button", f"^{label}$") for label in
+                 ("Pin", "Spring", "Ball joint", "Hinge", "Weld", "Slide", "Port", "Seam")]
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.showing(kinds[0]), "the menu to close")
+        for element, ends in (("pin", 1), ("spring", 2), ("ball", 2), ("hinge", 2), ("weld", 2), ("slide", 2), ("port", 2), ("seam", 2)):
+            assert f'<element name="{element}"' in schema
+            editor.act("add-link", "s", element)
+            editor.find("label", f", click 1 of {ends}: ")
+            editor.mouse("mousemove", *left, "click", 1)
+            if ends == 2:
+                editor.find("label", ", click 2 of 2: ")
+                editor.mouse("mousemove", *right, "click", 1)
+            ui.wait(lambda: editor.row(f"left_{element}"), f"the {element}")
+            ui.wait(lambda: editor.enabled("tie-link"), "the link to be selected")
+            link = link_in(editor, element, "picked")
+            assert link["body" if ends == 1 else "body_a"] == "left", link
+            assert link.get("body_b", "right") == "right" and ("body_b" in link) == (ends == 2), link
+            places = [vector(link[key])[0] for key in ("point", "point_a", "point_b") if key in link]
+            assert {"spring": 2, "seam": 0}.get(element, 1) == len(places), link
+            if element == "spring":
+                assert places[0] < -0.01 and places[1] > 0.01, link
+            elif places:
+                assert (places[0] > 0.01) == (element == "port") and abs(places[0]) > 0.01, link
+            if "direction" in link:
+                assert vector(link["direction"])[0] > 0.99, link
+            editor.act("undo")
+            ui.wait(lambda: not editor.row(f"left_{element}"), "the link to be undone")
+
+
+@check
+def links_are_tied_elsewhere():
+    """the scene is an end, too; Escape takes a click back; what cannot be tied says why; a link is selected where it is drawn, and tied to other places."""
+    with start(two_balls("elsewhere")) as editor:
+        left, right, above = on_balls(editor)
+        editor.act("add-link", "s", "spring")
+        editor.find("label", ", click 1 of 2: ")
+        editor.mouse("mousemove", *above, "click", 1)
+        ui.wait(lambda: "click on a body first" in (editor.message() or ""), "the refusal of the scene alone")
+        editor.mouse("mousemove", *right, "click", 1)
+        editor.find("label", ", click 2 of 2: ")
+        editor.focus()
+        editor.keys("Escape")
+        editor.find("label", ", click 1 of 2: ")
+        editor.mouse("mousemove", *left, "click", 1)
+        editor.find("label", ", click 2 of 2: ")
+        editor.mouse("mousemove", *left, "click", 1)
+        ui.wait(lambda: "both ends are of one body" in (editor.message() or ""), "the refusal of one body")
+        editor.mouse("mousemove", *above, "click", 1)
+        ui.wait(lambda: editor.row("left_spring"), "the spring")
+        link = link_in(editor, "spring", "scene_end")
+        assert "body_b" not in link and vector(link["point_b"])[1] > 0.02 and abs(vector(link["point_b"])[0]) < 0.01, link
+        beside = (right[0], above[1])
+        editor.mouse("mousemove", *beside, "click", 1)
+        ui.wait(lambda: not editor.enabled("tie-link"), "nothing to be selected")
+        editor.mouse("mousemove", *above, "click", 1)
+        ui.wait(lambda: editor.enabled("tie-link"), "the spring to be selected at its mark")
+        editor.act("tie-link")
+        editor.find("label", ", click 1 of 2: ")
+        editor.mouse("mousemove", *right, "click", 1)
+        editor.find("label", ", click 2 of 2: ")
+        editor.mouse("mousemove", *left, "click", 1)
+        ui.wait(lambda: link_in(editor, "spring", "tied").get("body_b") == "left", "the spring to be tied elsewhere")
+        assert link_in(editor, "spring", "tied")["body_a"] == "right"
+        editor.act("undo")
+        assert "body_b" not in link_in(editor, "spring", "tied_back")
+        editor.act("add-link", "s", "ball")
+        editor.focus()
+        editor.mouse("mousemove", *left)
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.look("label", ", click 1 of 2: "), "Escape to end the picking")
+        editor.act("step")
+        ui.wait(lambda: (editor.time_s() or 0) > 0, "a step")
+        editor.act("add-link", "s", "ball")
+        ui.wait(lambda: "needs the scene at its start" in (editor.message() or ""), "the refusal of a scene that runs")
+
+
+@check
+def a_link_by_the_keyboard():
+    """Space picks what is in the middle of the view, Enter ties the rest to the scene; a second link of that name gets a free one."""
+    with start(two_balls("keys", '<links><ball name="left_ball" body_a="left" point="-0.035 0 0"/></links>')) as editor:
+        on_balls(editor)
+        editor.act("view", "s", "right")
+        editor.act("select", "s", "bodies/right")
+        editor.act("hide")
+        editor.act("add-link", "s", "ball")
+        editor.find("label", ", click 1 of 2: ")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.focus()
+        editor.mouse("mousemove", x + 20, y + height - 60, "click", 2)
+        editor.keys("space")
+        editor.find("label", ", click 2 of 2: ")
+        editor.keys("Return")
+        ui.wait(lambda: editor.row("left_ball-2"), "the second joint, with a name of its own")
+        link = link_in(editor, "ball", "keys")
+        assert link["body_a"] == "left" and "body_b" not in link, link
+
+
 @check
 def an_effect_takes_the_place_of_physics():
     """while a ball falls, an effect takes its place and physics comes back: the run goes on, without a restart."""

@@ -195,18 +195,26 @@ static void begin_camera(SporeViewport *self, gboolean pan) {
   self->drag = pan ? DRAG_PAN : DRAG_ORBIT;
 }
 
+/* Beside all bodies, the place is as far away as the last one, or as what the camera looks at. */
+static void emit_picked(SporeViewport *self, double x, double y) {
+  SporeVec3 point, through = self->anchor_count ? self->anchors[self->anchor_count - 1] : self->camera.target;
+  guint32 body = pick(self, x, y, &point);
+  if (!body) point = spore_camera_unproject(&self->camera, through, x, y, width_of(self), height_of(self));
+  g_signal_emit_by_name(self, "picked", body, &point);
+}
+
 static void press_left(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
   if (spore_viewport_places_press(self, event->x, event->y)) return;
   if (self->picking) {
-    guint32 body = pick(self, event->x, event->y, &point);
-    if (body) g_signal_emit_by_name(self, "picked", body, &point);
+    emit_picked(self, event->x, event->y);
     return;
   }
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && begin_probe(self)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
-  guint32 body = pick(self, event->x, event->y, &point);
+  guint32 link = self->tool == SPORE_VIEWPORT_TOOL_SELECT ? spore_viewport_link_at(self, event->x, event->y) : 0;
+  guint32 body = link ? link : pick(self, event->x, event->y, &point);
   if (body && spore_viewport_edit_place(self, body, point)) return;
   if (body) spore_editor_document_select(self->document, body);
   self->beside = !body;
@@ -262,6 +270,7 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   }
   switch (self->drag) {
   case DRAG_NONE:
+    if (self->anchor_count) gtk_widget_queue_draw(area); /* the line to the cursor */
     return GDK_EVENT_PROPAGATE;
   case DRAG_ORBIT:
     spore_camera_orbit(&self->camera, dx, dy);
@@ -315,9 +324,18 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   switch (event->keyval) {
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);
-    else if (self->picking) spore_activate(area, "pick-places", NULL); /* no more */
+    else if (self->picking) spore_activate(area, "pick-back", NULL);
     else if (has_whole_screen(area)) spore_activate(area, "present", NULL);
     else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
+    break;
+  case GDK_KEY_space:
+    if (!self->picking) return GDK_EVENT_PROPAGATE;
+    emit_picked(self, 0.5 * width_of(self), 0.5 * height_of(self));
+    break;
+  case GDK_KEY_Return:
+  case GDK_KEY_KP_Enter:
+    if (!self->picking) return GDK_EVENT_PROPAGATE;
+    spore_activate(area, "pick-done", NULL);
     break;
   case GDK_KEY_h:
     spore_activate(area, "hide", NULL);

@@ -41,9 +41,10 @@ void spore_viewport_show_all(SporeViewport *self) {
 
 /* The menu. */
 
-static GMenu *menu_of_body(void) {
+static GMenu *menu_of_body(SporeViewport *self) {
   GMenu *menu = g_menu_new();
   g_menu_append(menu, _("Hold"), "win.add-pin");
+  g_menu_append_submenu(menu, _("Add link"), self->link_kinds);
   g_menu_append(menu, _("Hide"), "win.hide");
   g_menu_append(menu, _("Show only this"), "win.isolate");
   g_menu_append(menu, _("Show all"), "win.show-all");
@@ -62,7 +63,7 @@ static GMenu *menu_of_nothing(void) {
 }
 
 void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body) {
-  g_autoptr(GMenu) model = of_body ? menu_of_body() : menu_of_nothing();
+  g_autoptr(GMenu) model = of_body ? menu_of_body(self) : menu_of_nothing();
   GtkWidget *menu = gtk_menu_new_from_model(G_MENU_MODEL(model));
   gtk_menu_attach_to_widget(GTK_MENU(menu), self->area, NULL);
   g_signal_connect(menu, "selection-done", G_CALLBACK(gtk_widget_destroy), NULL);

@@ -9,12 +9,16 @@ typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT
 
 struct _SporeViewport {
   GtkOverlay parent;
-  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure;
+  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure, *link_button;
 
   SporeEditorDocument *document;
   SporePlayer *player;
   SporeViewportTool tool;
   gboolean picking;
+  SporeVec3 anchors[2]; /* places that are picked so far */
+  guint anchor_count;
+  GArray *link_marks;     /* of the scene's links, see spore-viewport-links.c */
+  GMenuModel *link_kinds; /* for menus */
   SporeStageOptions options;
   gboolean figures; /* in the corner, those of an author, too */
 
@@ -84,6 +88,14 @@ gboolean spore_viewport_places_press(SporeViewport *self, double x, double y); /
 void spore_viewport_places_motion(SporeViewport *self, guint32 body, SporeVec3 place);
 void spore_viewport_places_release(SporeViewport *self, gboolean keep);
 void spore_viewport_places_draw(SporeViewport *self, cairo_t *cr);
+
+/* spore-viewport-links.c: links over the picture. */
+GArray *spore_viewport_link_marks_new(void);
+/* Reads where the scene's links are. */
+void spore_viewport_links_refresh(SporeViewport *self);
+void spore_viewport_links_draw(SporeViewport *self, cairo_t *cr);
+/* Id of the link that is drawn there; 0: none. */
+guint32 spore_viewport_link_at(SporeViewport *self, double x, double y);
 
 /* spore-viewport-edit.c: the Edit tool. */
 /* Shows what the selection offers to edit. */

@@ -66,6 +66,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
+  spore_viewport_links_refresh(self);
   spore_viewport_look_afresh(self);
   spore_viewport_edit_refresh(self);
   update_stage(self);
@@ -120,6 +121,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   cairo_paint(cr);
   cairo_restore(cr);
   spore_viewport_overlay_draw(self, cr, width, height);
+  spore_viewport_links_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
   spore_viewport_places_draw(self, cr);
   return FALSE;
@@ -228,6 +230,8 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
   spore_viewport_end_drag(self);
   self->picking = picking;
+  self->anchor_count = 0;
+  gtk_widget_queue_draw(self->area);
 }
 
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool) {
@@ -278,6 +282,8 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
+  g_clear_pointer(&self->link_marks, g_array_unref);
+  g_clear_object(&self->link_kinds);
   spore_viewport_clear_legend(self);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }
@@ -297,6 +303,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, link_button);
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_press);
@@ -308,6 +315,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
 
 static void spore_viewport_init(SporeViewport *self) {
   self->hidden = g_hash_table_new(NULL, NULL);
+  self->link_marks = spore_viewport_link_marks_new();
   self->options = (SporeStageOptions){.surfaces = TRUE};
   spore_hand_edit_close(&self->edit);
   self->camera = (SporeCamera){

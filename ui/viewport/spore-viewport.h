@@ -1,15 +1,17 @@
 /* The scene as it stands, and the gestures on it.
  *
- * Left selects, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan, the wheel zooms
- * to the cursor, right opens a menu; H hides the selected body, I shows it alone, A shows all; F frames, 1, 3, 7 look
- * along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool, left moves
- * the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and
- * presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves spheres and points of
- * curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on, Insert adds,
- * Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
+ * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
+ * the wheel zooms to the cursor, right opens a menu; H hides the selected body, I shows it alone, A shows all; F
+ * frames, 1, 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the
+ * Probe tool, left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right
+ * closes its jaws and presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves
+ * spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P
+ * go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one
+ * there.
  *
  * Signals
- *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m
+ *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
+ * all bodies, as far away as the last anchor
  *   places-moved (p places)    a picked place was dragged elsewhere: const SporeViewportPlaces * */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
@@ -43,10 +45,15 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */
 gboolean spore_viewport_has_edited(SporeViewport *self);
-/* While picking, a click of the left button on a body emits "picked" instead of selecting the body. */
+/* While picking, a click of the left button, or the space bar for the middle of the view, emits "picked" instead of
+ * selecting. */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
 /* Shows the places; count 0: none. They can be dragged over the body's surface. */
 void spore_viewport_set_places(SporeViewport *self, const SporeViewportPlaces *places);
+/* Marks places that are picked so far (at most 2), each with a line to the cursor. */
+void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, guint count);
+/* The kinds of links, for the view's button and menu. */
+void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 /* Whether the corner shows what a step costs, contacts, solver and energy, too. */
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures);

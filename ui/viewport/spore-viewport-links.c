@@ -1,0 +1,122 @@
+/* Links over the picture: where they hold, and the places that are picked for a new one. */
+#include "core/author/link_edits.h"
+#include "ui/viewport/spore-viewport-private.h"
+
+#define MARK_PIXELS 4.5   /* radius as drawn */
+#define REACH_PIXELS 10.0 /* distance from a mark or line within which a click meets the link */
+#define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
+
+typedef struct Mark {
+  guint32 link; /* object id */
+  guint count;
+  SporeVec3 places[SPORE_LINK_MOST_ENDS];
+} Mark;
+
+GArray *spore_viewport_link_marks_new(void) { return g_array_new(FALSE, FALSE, sizeof(Mark)); }
+
+void spore_viewport_links_refresh(SporeViewport *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  const SporeObject *links = spore_document_section(document, "links");
+  g_array_set_size(self->link_marks, 0);
+  for (guint i = 0; i < spore_object_child_count(links); i++) {
+    const SporeObject *link = spore_object_child(links, i);
+    Mark mark = {.link = spore_object_id(link)};
+    mark.count = spore_link_places(document, link, mark.places);
+    if (mark.count) g_array_append_val(self->link_marks, mark);
+  }
+}
+
+/* Links are drawn where the author put them; a run takes the bodies away from there. */
+static gboolean shows_links(SporeViewport *self) {
+  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
+  return self->document && (!session || spore_session_snapshot(session)->time_s == 0);
+}
+
+static gboolean project(SporeViewport *self, SporeVec3 place, double *x, double *y) {
+  return spore_camera_project(&self->camera, place, gtk_widget_get_allocated_width(self->area),
+                              gtk_widget_get_allocated_height(self->area), x, y);
+}
+
+static void draw_dot(cairo_t *cr, double x, double y, gboolean chosen) {
+  cairo_new_path(cr);
+  cairo_arc(cr, x, y, chosen ? 1.5 * MARK_PIXELS : MARK_PIXELS, 0, 2 * G_PI);
+  if (chosen) cairo_set_source_rgb(cr, 1, 1, 1);
+  else cairo_set_source_rgb(cr, 0.25, 0.75, 0.85);
+  cairo_fill_preserve(cr);
+  cairo_set_source_rgb(cr, 0.05, 0.2, 0.25);
+  cairo_set_line_width(cr, 1.5);
+  cairo_stroke(cr);
+}
+
+static void draw_line(cairo_t *cr, const double from[2], const double to[2], gboolean chosen) {
+  cairo_new_path(cr);
+  cairo_move_to(cr, from[0], from[1]);
+  cairo_line_to(cr, to[0], to[1]);
+  cairo_set_source_rgb(cr, chosen ? 1 : 0.25, chosen ? 1 : 0.75, chosen ? 1 : 0.85);
+  cairo_set_line_width(cr, 2);
+  cairo_stroke(cr);
+}
+
+static void draw_link(SporeViewport *self, cairo_t *cr, const Mark *mark) {
+  gboolean chosen = spore_editor_document_get_selection(self->document) == mark->link;
+  double at[SPORE_LINK_MOST_ENDS][2];
+  for (guint end = 0; end < mark->count; end++)
+    if (!project(self, mark->places[end], &at[end][0], &at[end][1])) return;
+  if (mark->count > 1) draw_line(cr, at[0], at[1], chosen);
+  for (guint end = 0; end < mark->count; end++) draw_dot(cr, at[end][0], at[end][1], chosen);
+}
+
+/* The places so far, and a line from there to the cursor. The middle of the view is what the space bar picks. */
+static void draw_picking(SporeViewport *self, cairo_t *cr) {
+  double x = 0.5 * gtk_widget_get_allocated_width(self->area), y = 0.5 * gtk_widget_get_allocated_height(self->area);
+  const double cross[4][2] = {
+      {x - CROSS_PIXELS, y}, {x + CROSS_PIXELS, y}, {x, y - CROSS_PIXELS}, {x, y + CROSS_PIXELS}};
+  double at[2], cursor[2] = {self->last_x, self->last_y};
+  draw_line(cr, cross[0], cross[1], TRUE);
+  draw_line(cr, cross[2], cross[3], TRUE);
+  for (guint i = 0; i < self->anchor_count; i++) {
+    if (!project(self, self->anchors[i], &at[0], &at[1])) continue;
+    draw_line(cr, at, cursor, TRUE);
+    draw_dot(cr, at[0], at[1], TRUE);
+  }
+}
+
+void spore_viewport_links_draw(SporeViewport *self, cairo_t *cr) {
+  if (shows_links(self))
+    for (guint i = 0; i < self->link_marks->len; i++) draw_link(self, cr, &g_array_index(self->link_marks, Mark, i));
+  if (self->picking) draw_picking(self, cr);
+}
+
+/* Distance of a point from the piece of a line. */
+static double distance_to(const double from[2], const double to[2], double x, double y) {
+  double along[2] = {to[0] - from[0], to[1] - from[1]}, square = along[0] * along[0] + along[1] * along[1];
+  double share = square > 0 ? ((x - from[0]) * along[0] + (y - from[1]) * along[1]) / square : 0;
+  share = CLAMP(share, 0, 1);
+  return hypot(from[0] + share * along[0] - x, from[1] + share * along[1] - y);
+}
+
+guint32 spore_viewport_link_at(SporeViewport *self, double x, double y) {
+  guint32 link = 0;
+  double nearest = REACH_PIXELS;
+  for (guint i = 0; shows_links(self) && i < self->link_marks->len; i++) {
+    const Mark *mark = &g_array_index(self->link_marks, Mark, i);
+    double from[2], to[2];
+    if (!project(self, mark->places[0], &from[0], &from[1]) ||
+        !project(self, mark->places[mark->count - 1], &to[0], &to[1]))
+      continue;
+    double distance = distance_to(from, to, x, y);
+    if (distance <= nearest) nearest = distance, link = mark->link;
+  }
+  return link;
+}
+
+void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, guint count) {
+  self->anchor_count = MIN(count, G_N_ELEMENTS(self->anchors));
+  for (guint i = 0; i < self->anchor_count; i++) self->anchors[i] = places[i];
+  gtk_widget_queue_draw(self->area);
+}
+
+void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds) {
+  g_set_object(&self->link_kinds, kinds);
+  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->link_button), kinds);
+}
