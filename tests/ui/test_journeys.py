@@ -1287,7 +1287,7 @@ def crash_and_recover(end):
     with start(state=state) as editor:
         make_soft_ball(editor)
         editor.act("generate-spheres", "u", 10)  # a job keeps the work before it begins
-        time.sleep(0.5)
+        ui.wait(lambda: any("ball_pin" in scene.read_text() for scene in pathlib.Path(state).rglob("*.spore")), "the work to be kept")
         end(editor)
     with start(state=state) as editor:
         editor.find("label", "ended unexpectedly")
