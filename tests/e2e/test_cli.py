@@ -121,6 +121,7 @@ def readme_agrees():
     shown = re.findall(r"^\$?(spore .*)$", text, re.M) + re.findall(r"`(spore [^`]*)`", text)
     commands = set(re.findall(r"^  (\w+)  ", spore("--help").stdout, re.M))
     helps = {name: spore(name, "--help").stdout for name in commands}
+    helps["sweep"] += "".join(spore("sweep", part, "--help").stdout for part in ("plan", "run", "collect"))
     used = {line.split()[1] for line in shown if line.split()[1].islower()}
     assert used == commands | {"render"}, used ^ commands # not every build has it
     assert "render" in commands or "render" not in FEATURES
