@@ -4,6 +4,11 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+/* A member that is there where there is such a number. */
+static void report_known(SporeCli *cli, const char *member, double value) {
+  if (isfinite(value)) spore_cli_number(cli, member, value);
+}
+
 static void report_steps(SporeCli *cli, const SporeExercise *exercise) {
   gsize count = spore_exercise_state(exercise).steps;
   spore_cli_open_array(cli, "steps");
@@ -13,7 +18,7 @@ static void report_steps(SporeCli *cli, const SporeExercise *exercise) {
     spore_cli_text(cli, "name", step.name);
     spore_cli_text(cli, "kind", step.kind->element);
     spore_cli_text(cli, "phase", spore_step_phase_names[step.phase]);
-    spore_cli_number(cli, "done_s", step.done_s);
+    report_known(cli, "done_s", step.done_s);
     spore_cli_count(cli, "early", (gint64)step.early);
     spore_cli_close(cli);
     if (step.phase == SPORE_STEP_DONE) spore_cli_say(cli, _("  step %s: done at %.2f s\n"), step.name, step.done_s);
@@ -28,9 +33,9 @@ static void report_metric(SporeCli *cli, const SporeMetricState *metric) {
   spore_cli_text(cli, "kind", metric->kind->element);
   spore_cli_number(cli, "value", metric->value);
   spore_cli_text(cli, "unit", metric->unit);
-  spore_cli_number(cli, "good", metric->good);
-  spore_cli_number(cli, "pass", metric->pass);
-  spore_cli_number(cli, "mark", metric->mark);
+  report_known(cli, "good", metric->good);
+  report_known(cli, "pass", metric->pass);
+  report_known(cli, "mark", metric->mark);
   spore_cli_text(cli, "verdict", spore_metric_verdict_names[metric->verdict]);
   if (metric->source) spore_cli_text(cli, "source", metric->source);
   spore_cli_close(cli);

@@ -1159,6 +1159,8 @@ def levels_change_while_it_runs():
                 if node.get_role_name() == "label" and (node.get_name() or "").startswith("Time "):
                     return re.search(r"ovary_right: (\w+)", node.get_name())[1]
 
+        editor.act("show-figures")
+        ui.wait(lambda: editor.hud(r"ovary_right: (\w+)", str), "the level")
         assert level() == "Fine"
         before = editor.time_s()
         editor.choose(editor.find("combo box", "^Fine$", showing=False), "Coarse")
