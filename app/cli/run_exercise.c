@@ -20,8 +20,11 @@ static void report_steps(SporeCli *cli, const SporeExercise *exercise) {
     spore_cli_text(cli, "phase", spore_step_phase_names[step.phase]);
     report_known(cli, "done_s", step.done_s);
     spore_cli_count(cli, "early", (gint64)step.early);
+    if (step.hint) spore_cli_text(cli, "hint", step.hint);
     spore_cli_close(cli);
     if (step.phase == SPORE_STEP_DONE) spore_cli_say(cli, _("  step %s: done at %.2f s\n"), step.name, step.done_s);
+    else if (step.phase == SPORE_STEP_OPEN && step.hint)
+      spore_cli_say(cli, _("  step %s: not done; %s\n"), step.name, step.hint);
     else spore_cli_say(cli, _("  step %s: not done\n"), step.name);
   }
   spore_cli_close_array(cli);

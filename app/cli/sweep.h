@@ -46,6 +46,10 @@ SporeManifest *spore_sweep_read(const char *file, const char *results, GError **
 void spore_sweep_free(SporeManifest *sweep);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeManifest, spore_sweep_free)
 
+/* Members of the open object; text NULL: null. */
+void spore_sweep_add_text(JsonBuilder *builder, const char *member, const char *text);
+void spore_sweep_add_count(JsonBuilder *builder, const char *member, gint64 count);
+
 /* The file that the result of a case is in; g_free. */
 char *spore_sweep_result_file(const SporeManifest *sweep, const SporeSweepCase *one);
 /* NULL without an error: there is none yet. NULL with an error: the file is damaged. */

@@ -63,9 +63,10 @@ static void add_texts(JsonBuilder *builder, const char *member, char *const *tex
   json_builder_end_array(builder);
 }
 
-static void add_text(JsonBuilder *builder, const char *member, const char *text) {
+void spore_sweep_add_text(JsonBuilder *builder, const char *member, const char *text) {
   json_builder_set_member_name(builder, member);
-  json_builder_add_string_value(builder, text);
+  if (text) json_builder_add_string_value(builder, text);
+  else json_builder_add_null_value(builder);
 }
 
 static void add_line(GString *manifest, JsonBuilder *builder) {
@@ -77,7 +78,7 @@ static void add_line(GString *manifest, JsonBuilder *builder) {
   json_builder_reset(builder);
 }
 
-static void add_count(JsonBuilder *builder, const char *member, gint64 count) {
+void spore_sweep_add_count(JsonBuilder *builder, const char *member, gint64 count) {
   json_builder_set_member_name(builder, member);
   json_builder_add_int_value(builder, count);
 }
@@ -86,17 +87,17 @@ char *spore_sweep_format(const SporeManifest *sweep) {
   GString *manifest = g_string_new(NULL);
   g_autoptr(JsonBuilder) builder = json_builder_new();
   json_builder_begin_object(builder);
-  add_count(builder, "spore_sweep", VERSION);
-  add_count(builder, "cases", sweep->cases->len);
+  spore_sweep_add_count(builder, "spore_sweep", VERSION);
+  spore_sweep_add_count(builder, "cases", sweep->cases->len);
   add_texts(builder, "axes", sweep->axes);
   add_line(manifest, builder);
   for (guint i = 0; i < sweep->cases->len; i++) {
     const SporeSweepCase *one = g_ptr_array_index(sweep->cases, i);
     json_builder_begin_object(builder);
-    add_count(builder, "case", one->number);
-    add_text(builder, "hash", one->hash);
-    add_text(builder, "scene", one->scene);
-    add_text(builder, "scene_hash", one->scene_hash);
+    spore_sweep_add_count(builder, "case", one->number);
+    spore_sweep_add_text(builder, "hash", one->hash);
+    spore_sweep_add_text(builder, "scene", one->scene);
+    spore_sweep_add_text(builder, "scene_hash", one->scene_hash);
     add_texts(builder, "arguments", one->arguments);
     add_texts(builder, "values", one->values);
     add_line(manifest, builder);

@@ -125,33 +125,22 @@ static char *said_by(const Worker *worker) {
   return g_utf8_make_valid(text, -1);
 }
 
-static void add_text(JsonBuilder *builder, const char *member, const char *text) {
-  json_builder_set_member_name(builder, member);
-  if (text) json_builder_add_string_value(builder, text);
-  else json_builder_add_null_value(builder);
-}
-
-static void add_count(JsonBuilder *builder, const char *member, gint64 count) {
-  json_builder_set_member_name(builder, member);
-  json_builder_add_int_value(builder, count);
-}
-
 /* Takes output. */
 static char *format_result(const Farm *farm, const Worker *worker, int status, const char *said, JsonNode *output) {
   g_autoptr(JsonBuilder) builder = json_builder_new();
   g_autoptr(GDateTime) started = g_date_time_new_from_unix_utc(worker->started_s);
   g_autofree char *time = g_date_time_format_iso8601(started);
   json_builder_begin_object(builder);
-  add_count(builder, "case", worker->one->number);
-  add_text(builder, "hash", worker->one->hash);
-  add_count(builder, "status", status);
-  add_text(builder, "said", said);
-  add_text(builder, "host", g_get_host_name());
-  add_text(builder, "processor", farm->processor);
-  add_count(builder, "core", worker->core);
-  add_count(builder, "jobs", farm->jobs);
-  add_text(builder, "started", time);
-  add_text(builder, "version", SPORE_VERSION);
+  spore_sweep_add_count(builder, "case", worker->one->number);
+  spore_sweep_add_text(builder, "hash", worker->one->hash);
+  spore_sweep_add_count(builder, "status", status);
+  spore_sweep_add_text(builder, "said", said);
+  spore_sweep_add_text(builder, "host", g_get_host_name());
+  spore_sweep_add_text(builder, "processor", farm->processor);
+  spore_sweep_add_count(builder, "core", worker->core);
+  spore_sweep_add_count(builder, "jobs", farm->jobs);
+  spore_sweep_add_text(builder, "started", time);
+  spore_sweep_add_text(builder, "version", SPORE_VERSION);
   json_builder_set_member_name(builder, "seconds");
   json_builder_add_double_value(builder, 1e-6 * (double)(g_get_monotonic_time() - worker->started_us));
   json_builder_set_member_name(builder, "result");

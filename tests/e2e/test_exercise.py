@@ -90,11 +90,14 @@ def a_place_is_reached_when_the_instrument_is_there():
     found = steps(run('<reached name="near" tool="one" point="0.05 0 0" radius="0.01"/>'
                       '<reached name="stays" tool="one" point="0.1 0 0" radius="0.002" time="0.5"/>'
                       '<reached name="rushes" tool="one" point="0.05 0 0" radius="0.01" time="0.5"/>'
-                      '<reached name="never" tool="two" point="0.05 0 0" radius="0.01"/>', 400))
+                      '<reached name="never" tool="two" point="0.05 0 0" radius="0.01" hint="Use the other hand."/>', 400))
     near(found["near"]["done_s"], 0.4, 0.021)
     near(found["stays"]["done_s"], 0.98 + 0.5, 0.031)
     assert found["rushes"]["phase"] == found["never"]["phase"] == "open", found
     assert "done_s" not in found["never"]
+    assert found["never"]["hint"] == "Use the other hand." and "hint" not in found["near"]
+    said = spore("run", "scene.spore", "-n", 100).stdout
+    assert "step never: not done; Use the other hand." in said and "step rushes: not done\n" in said, said
 
 
 @check
