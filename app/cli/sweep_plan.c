@@ -105,7 +105,7 @@ static gboolean add_varied(GArray *axes, char **vary, GError **error) {
     if (!equals)
       return spore_error_raise(error, SPORE_ERROR_INPUT, "--vary",
                                _("%s names no values; expected PATH=VALUES, such as "
-                                 "bodies/liver/mechanical/young_modulus=1000..8000:5; correct it"),
+                                 "bodies/liver/collision/stiffness=100..800:5; correct it"),
                                *vary);
     char **values = values_of("--vary", equals + 1, error);
     if (!values) return FALSE;
