@@ -46,11 +46,12 @@ typedef struct Farm {
   char *program, *processor;
 } Farm;
 
-/* Locks. They end with the process that holds them, however it ends. */
+/* Locks. They end with the process that holds them, however it ends. Where a file system has none, two runs at once may
+ * do the same case twice, to the same result. */
 
 static gboolean take_case(const Farm *farm, const SporeSweepCase *one) {
   struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = one->number, .l_len = 1};
-  return fcntl(farm->lock, F_OFD_SETLK, &byte) == 0;
+  return fcntl(farm->lock, F_OFD_SETLK, &byte) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
 static void leave_case(const Farm *farm, const SporeSweepCase *one) {

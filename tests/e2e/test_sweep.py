@@ -57,6 +57,19 @@ def results(here, name="s.sweep"):
     return sorted((here / (name + ".results")).glob("*.json"))
 
 
+def children_of(parent):
+    """Processes that another one has started, as texts."""
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rsplit(") ", 1)[1].split()
+        except OSError:  # it went while we looked
+            continue
+        if int(fields[1]) == parent:
+            found.append(stat.parent.name)
+    return found
+
+
 @check
 def every_combination_is_a_case(*_):
     """Every combination is a case, and its result is what the command prints"""
@@ -171,10 +184,10 @@ def an_interrupt_keeps_results(*_):
     here = folder("interrupt")
     sweep(here, "plan", "a.spore", "-o", "s.sweep", "--vary", STIFFNESS + "=100..1000:8", "--command", "run -n 100000000")
     process = subprocess.Popen([SPORE, "sweep", "run", "s.sweep"], cwd=here, stderr=subprocess.PIPE, text=True)
-    children = pathlib.Path("/proc", str(process.pid), "task", str(process.pid), "children")
-    while process.poll() is None and not children.read_text().split():
+    cases = []
+    while process.poll() is None and not cases:
+        cases = children_of(process.pid)
         time.sleep(0.01)
-    cases = children.read_text().split()
     process.send_signal(signal.SIGINT)
     said = process.communicate(timeout=60)[1]
     assert process.returncode == 130, process.returncode
