@@ -21,7 +21,7 @@
 #define LEAST_FLOOR 1e-6   /* of a body's length: nobody sees less */
 #define LEAST_FORCE_N 1e-4 /* no hand feels less */
 
-/* A run and the bodies that it followed. */
+/* The run of all that is physical, and the bodies that it followed. */
 typedef struct Replay {
   SporeTrialPoints points;
   SporeTrial trial;
@@ -45,14 +45,14 @@ static gboolean cancelled(GError **error) {
 }
 
 /* Runs the scene varied; what is an effect there is physical in it. perturbation: 0, or by how much the start is off.
- */
+ * points: what is followed; chosen here where nothing was chosen yet. */
 static gboolean replay(Advice *advice, const SporeVariation *difference, double perturbation, guint32 seed,
-                       Replay *replay, GError **error) {
+                       SporeTrialPoints *points, SporeTrial *trial, GError **error) {
   SporeVariation variation = *difference;
   SporeError fault = SPORE_ERROR_INIT;
   const SporeTrack *input = advice->run->input.channel_count ? &advice->run->input : NULL;
   variation.physical = TRUE;
-  *replay = (Replay){0};
+  *trial = (SporeTrial){0};
   g_autoptr(SporeSimulation) simulation =
       spore_variation_make(advice->run->document, &variation, advice->run->pool, input, spore_cli_cancel(), error);
   if (!simulation) return FALSE;
@@ -62,53 +62,62 @@ static gboolean replay(Advice *advice, const SporeVariation *difference, double 
                                        .perturbation = perturbation,
                                        .seed = seed,
                                        .cancel = spore_cli_cancel()};
-  gboolean good = spore_trial_points_choose(&replay->points, simulation->world, SPORE_NO_BODY, &fault) &&
-                  spore_trial_run(&replay->trial, simulation->world, &replay->points, &settings, &fault);
-  if (!good) {
-    clear_replay(replay);
-    return spore_error_propagate(&fault, error);
-  }
-  spore_progress(spore_cli_progress(advice->cli), (double)++advice->done / advice->count, _("replaying"));
-  if (!replay->trial.cancelled) return TRUE;
-  clear_replay(replay);
-  return cancelled(error);
+  gboolean good = (points->bodies || spore_trial_points_choose(points, simulation->world, SPORE_NO_BODY, &fault)) &&
+                  spore_trial_run(trial, simulation->world, points, &settings, &fault);
+  if (good) spore_progress(spore_cli_progress(advice->cli), (double)++advice->done / advice->count, _("replaying"));
+  if (good && !trial->cancelled) return TRUE;
+  spore_trial_clear(trial);
+  return good ? cancelled(error) : spore_error_propagate(&fault, error);
 }
 
 /* The noise floor: half the step, and starts that are a little off. */
-static gboolean find_floor(Advice *advice, const Replay *full, SporeEvidence *evidence, GError **error) {
+static gboolean find_floor(Advice *advice, Replay *full, SporeEvidence *evidence, GError **error) {
   evidence->floor = LEAST_FLOOR, evidence->force_floor = LEAST_FORCE_N;
   for (guint32 i = 0; i <= PERTURBED; i++) {
     const SporeVariation half = {.dt_s = i == 0 ? 0.5 * advice->dt_s : 0};
-    Replay other;
-    if (!replay(advice, &half, i == 0 ? 0 : PERTURBATION, i, &other, error)) return FALSE;
-    SporeInfluence influence = spore_influence_between(&full->points, &full->trial, &other.points, &other.trial);
+    SporeTrial other;
+    if (!replay(advice, &half, i == 0 ? 0 : PERTURBATION, i, &full->points, &other, error)) return FALSE;
+    SporeInfluence influence = spore_influence_between(&full->points, &full->trial, &full->points, &other);
     if (isfinite(influence.rms)) {
       evidence->floor = fmax(evidence->floor, influence.rms);
       evidence->force_floor = fmax(evidence->force_floor, influence.force);
     }
-    clear_replay(&other);
+    spore_trial_clear(&other);
   }
   return TRUE;
 }
 
 static double step_us(const SporeTrial *trial) { return trial->steps ? 1e6 * trial->cpu_s / (double)trial->steps : 0; }
 
-/* Bodies of another run without this one. */
+/* The points without those of a body, whose own motion is not what others feel of it. `bodies` is to be freed; the rest
+ * stays that of `points`. */
+static SporeTrialPoints without(const SporeTrialPoints *points, guint32 body) {
+  SporeTrialPoints others = {.bodies = g_new(SporeTrialBody, points->body_count)};
+  for (gsize k = 0; k < points->body_count; k++) {
+    if (points->bodies[k].body == body) continue;
+    others.bodies[others.body_count++] = points->bodies[k];
+    others.count += points->bodies[k].count;
+  }
+  return others;
+}
+
+/* The other bodies in a run in which this one has another form. */
 static gboolean try_form(Advice *advice, const Replay *full, guint32 body, const SporeVariation *variation,
                          SporeVerdict verdict, SporeEvidence *evidence, GError **error) {
-  Replay other;
+  SporeTrial other;
   SporeForm *form = &evidence->forms[verdict];
-  if (!replay(advice, variation, 0, 0, &other, error)) return FALSE;
-  /* What the body itself does is not what others feel of it. */
-  for (gsize k = 0; k < other.points.body_count; k++)
-    if (other.points.bodies[k].body == body) other.points.bodies[k].body = SPORE_NO_BODY;
-  form->tried = true;
-  form->influence = spore_influence_between(&full->points, &full->trial, &other.points, &other.trial);
-  form->saved_us = evidence->step_us - step_us(&other.trial);
-  if (verdict == SPORE_VERDICT_EFFECT)
-    evidence->events = memcmp(&full->trial.events, &other.trial.events, sizeof(SporeTrialEvents)) != 0;
-  clear_replay(&other);
-  return TRUE;
+  SporeTrialPoints points = without(&full->points, body);
+  gboolean good = replay(advice, variation, 0, 0, &points, &other, error);
+  if (good) {
+    form->tried = true;
+    form->influence = spore_influence_between(&full->points, &full->trial, &points, &other);
+    form->saved_us = evidence->step_us - step_us(&other);
+    if (verdict == SPORE_VERDICT_EFFECT)
+      evidence->events = memcmp(&full->trial.events, &other.events, sizeof(SporeTrialEvents)) != 0;
+    spore_trial_clear(&other);
+  }
+  g_free(points.bodies);
+  return good;
 }
 
 /* Name of an instrument that names the body, or of a link that ties the body to what a device moves. */
@@ -296,8 +305,11 @@ static gboolean write_scene(Advice *advice, const SporeTrialPoints *points, cons
 static gboolean advise(Advice *advice, GError **error) {
   const SporeVariation as_it_is = {0};
   SporeEvidence floor = {0};
-  Replay full;
-  if (!replay(advice, &as_it_is, 0, 0, &full, error)) return FALSE;
+  Replay full = {0};
+  if (!replay(advice, &as_it_is, 0, 0, &full.points, &full.trial, error)) {
+    clear_replay(&full);
+    return FALSE;
+  }
   gsize count = full.points.body_count;
   g_autofree SporeEvidence *evidence = g_new0(SporeEvidence, count);
   g_autofree SporeVerdict *verdicts = g_new0(SporeVerdict, count);
