@@ -48,9 +48,7 @@ static gboolean read_number(const char *text, double *number) {
 /* To six digits. */
 static char *value_text(double value) {
   char digits[SPORE_NUMBER_TEXT];
-  double unit = value != 0 ? pow(10, floor(log10(fabs(value))) - 5) : 1;
-  value = unit < 1 ? round(value / unit) / round(1 / unit) : round(value / unit) * unit;
-  digits[spore_number_format(value, digits)] = '\0';
+  spore_number_format_rounded(value, 6, digits);
   return g_strdup(digits);
 }
 

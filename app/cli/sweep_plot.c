@@ -11,66 +11,92 @@
 
 #define PLOTS_MAXIMUM 24 /* on a page */
 
-/* The axes of a plot. */
+/* An axis of a plot: the values that it takes, in order of cases, and which of them each case has. */
+typedef struct PlotAxis {
+  const char *name; /* NULL: there is none */
+  char **values;
+  guint count;
+  guint *of_case;
+} PlotAxis;
+
+/* Of the cases at one place of the axes. */
+typedef struct Spread {
+  guint count;
+  double mean, squares; /* squares: of the differences from the mean, summed */
+} Spread;
+
 typedef struct View {
   const SporeSweepTable *table;
   guint quantity;
-  int axis[2];      /* -1: none */
-  char **values[2]; /* that the axis takes, in order of cases */
+  PlotAxis axes[2];
 } View;
 
 static void view_clear(View *view) {
-  g_strfreev(view->values[0]);
-  g_strfreev(view->values[1]);
-}
-
-/* Values of an axis, each once. */
-static char **values_of(const SporeManifest *sweep, int axis) {
-  g_autoptr(GPtrArray) values = g_ptr_array_new();
-  for (guint i = 0; i < sweep->cases->len; i++) {
-    const SporeSweepCase *one = g_ptr_array_index(sweep->cases, i);
-    if (!g_ptr_array_find_with_equal_func(values, one->values[axis], g_str_equal, NULL))
-      g_ptr_array_add(values, g_strdup(one->values[axis]));
+  for (int slot = 0; slot < 2; slot++) {
+    g_strfreev(view->axes[slot].values);
+    g_free(view->axes[slot].of_case);
   }
-  g_ptr_array_add(values, NULL);
-  return (char **)g_ptr_array_steal(values, NULL);
 }
 
-static gboolean choose_axis(View *view, int slot, int axis) {
-  view->axis[slot] = axis;
-  view->values[slot] = values_of(view->table->sweep, axis);
-  return TRUE;
+static PlotAxis axis_of(const SporeManifest *sweep, int number) {
+  g_autoptr(GHashTable) known = g_hash_table_new(g_str_hash, g_str_equal);
+  g_autoptr(GStrvBuilder) values = g_strv_builder_new();
+  PlotAxis axis = {.name = sweep->axes[number], .of_case = g_new(guint, sweep->cases->len)};
+  for (guint i = 0; i < sweep->cases->len; i++) {
+    char *value = ((const SporeSweepCase *)g_ptr_array_index(sweep->cases, i))->values[number];
+    gpointer found;
+    if (!g_hash_table_lookup_extended(known, value, NULL, &found)) {
+      found = GUINT_TO_POINTER(axis.count++);
+      g_hash_table_insert(known, value, found);
+      g_strv_builder_add(values, value);
+    }
+    axis.of_case[i] = GPOINTER_TO_UINT(found);
+  }
+  axis.values = g_strv_builder_end(values);
+  return axis;
 }
 
 static gboolean choose_named(View *view, const char *over, GError **error) {
-  char **axes = view->table->sweep->axes;
+  const SporeManifest *sweep = view->table->sweep;
   g_auto(GStrv) names = g_strsplit(over, ",", 0);
   guint count = g_strv_length(names);
-  for (guint i = 0; i < MIN(2, count); i++) {
-    int axis = spore_sweep_index(axes, g_strstrip(names[i]));
-    if (axis >= 0 && axis != view->axis[0] && choose_axis(view, (int)i, axis)) continue;
-    g_autofree char *all = g_strjoinv(", ", axes);
+  if (count > 2)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--over", _("%u axes; expected one or two; leave some out"),
+                             count);
+  for (guint i = 0; i < count; i++) {
+    int number = spore_sweep_index(sweep->axes, g_strstrip(names[i]));
+    if (number >= 0 && (i == 0 || !g_str_equal(view->axes[0].name, names[i]))) {
+      view->axes[i] = axis_of(sweep, number);
+      continue;
+    }
+    g_autofree char *all = g_strjoinv(", ", sweep->axes);
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--over",
                              _("\"%s\" is no axis of this sweep, or stands there twice; expected one or two of %s; "
                                "correct it"),
                              names[i], all);
   }
-  if (count <= 2) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_INPUT, "--over", _("%u axes; expected one or two; leave some out"),
-                           count);
+  return TRUE;
+}
+
+/* Whether the values of an axis differ between cases. */
+static gboolean differs(const SporeManifest *sweep, int number) {
+  const SporeSweepCase *first = g_ptr_array_index(sweep->cases, 0);
+  for (guint i = 1; i < sweep->cases->len; i++)
+    if (!g_str_equal(((const SporeSweepCase *)g_ptr_array_index(sweep->cases, i))->values[number],
+                     first->values[number]))
+      return TRUE;
+  return FALSE;
 }
 
 /* The first two axes that differ, repeats apart; the first axis where none does. */
 static gboolean choose_axes(View *view, const char *over, GError **error) {
-  view->axis[0] = view->axis[1] = -1;
+  const SporeManifest *sweep = view->table->sweep;
   if (over) return choose_named(view, over, error);
-  char **axes = view->table->sweep->axes;
   int slot = 0;
-  for (int a = 0; axes[a] && slot < 2; a++) {
-    g_auto(GStrv) values = values_of(view->table->sweep, a);
-    if (g_strv_length(values) > 1 && !g_str_equal(axes[a], "repeat") && choose_axis(view, slot, a)) slot++;
-  }
-  return slot > 0 || choose_axis(view, 0, 0);
+  for (int a = 0; sweep->axes[a] && slot < 2; a++)
+    if (!g_str_equal(sweep->axes[a], "repeat") && differs(sweep, a)) view->axes[slot++] = axis_of(sweep, a);
+  if (slot == 0) view->axes[0] = axis_of(sweep, 0);
+  return TRUE;
 }
 
 static gboolean numbers_of(char **texts, double *numbers) {
@@ -81,33 +107,21 @@ static gboolean numbers_of(char **texts, double *numbers) {
   return TRUE;
 }
 
-/* Of the cases at one place of the axes. */
-typedef struct Spread {
-  guint count;
-  double mean, deviation, least, most;
-} Spread;
-
-/* row < 0: there is but one axis. */
-static Spread spread_at(const View *view, guint column, int row) {
+/* Of all places, row by row along the first axis; g_free. After Welford. */
+static Spread *spreads_of(const View *view) {
   const SporeSweepTable *table = view->table;
+  const PlotAxis *along = &view->axes[0], *up = &view->axes[1];
   guint columns = g_strv_length(table->quantities);
-  Spread spread = {.least = HUGE_VAL, .most = -HUGE_VAL};
-  double squares = 0;
+  Spread *spreads = g_new0(Spread, along->count * MAX(1, up->count));
   for (guint i = 0; i < table->sweep->cases->len; i++) {
-    const SporeSweepCase *one = g_ptr_array_index(table->sweep->cases, i);
     double value = table->values[i * columns + view->quantity];
-    if (!isfinite(value) || !g_str_equal(one->values[view->axis[0]], view->values[0][column]) ||
-        (row >= 0 && !g_str_equal(one->values[view->axis[1]], view->values[1][row])))
-      continue;
-    spread.count++;
-    double off = value - spread.mean; /* Welford */
-    spread.mean += off / spread.count;
-    squares += off * (value - spread.mean);
-    spread.least = fmin(spread.least, value), spread.most = fmax(spread.most, value);
+    if (!isfinite(value)) continue;
+    Spread *spread = &spreads[along->of_case[i] + (up->name ? up->of_case[i] * along->count : 0)];
+    double off = value - spread->mean;
+    spread->mean += off / ++spread->count;
+    spread->squares += off * (value - spread->mean);
   }
-  spread.deviation = spread.count > 1 ? sqrt(squares / (spread.count - 1)) : 0;
-  if (spread.count == 0) spread = (Spread){0, NAN, NAN, NAN, NAN};
-  return spread;
+  return spreads;
 }
 
 static char *failure(SporeError *fault, GError **error) {
@@ -124,25 +138,27 @@ static char *taken(char *svg) {
 /* A curve. */
 
 static char *draw_curve(const View *view, const char *title, GError **error) {
-  guint count = g_strv_length(view->values[0]);
-  g_autofree double *x = g_new(double, count), *mean = g_new(double, count), *low = g_new(double, count),
-                    *high = g_new(double, count);
-  gboolean numeric = numbers_of(view->values[0], x), wide = TRUE;
-  GString *note = g_string_new(_("Means of all cases there; bars: one standard deviation."));
-  for (guint i = 0; i < count; i++) {
-    Spread spread = spread_at(view, i, -1);
-    if (!numeric) x[i] = i + 1;
-    if (!numeric && i < 8) g_string_append_printf(note, "%s%u: %s", i == 0 ? "\n" : ", ", i + 1, view->values[0][i]);
-    mean[i] = spread.mean, low[i] = spread.mean - spread.deviation, high[i] = spread.mean + spread.deviation;
-    wide = wide && x[i] > 0;
-  }
+  const PlotAxis *axis = &view->axes[0];
+  g_autofree Spread *spreads = spreads_of(view);
+  g_autofree double *x = g_new(double, axis->count), *mean = g_new(double, axis->count),
+                    *low = g_new(double, axis->count), *high = g_new(double, axis->count);
+  gboolean numeric = numbers_of(axis->values, x);
   double least = HUGE_VAL, most = -HUGE_VAL;
-  for (guint i = 0; i < count; i++) least = fmin(least, x[i]), most = fmax(most, x[i]);
+  GString *note = g_string_new(_("Means of all cases there; bars: one standard deviation."));
+  for (guint i = 0; i < axis->count; i++) {
+    const Spread *spread = &spreads[i];
+    double deviation = spread->count > 1 ? sqrt(spread->squares / (spread->count - 1)) : 0;
+    if (!numeric) x[i] = i + 1;
+    if (!numeric && i < 8) g_string_append_printf(note, "%s%u: %s", i == 0 ? "\n" : ", ", i + 1, axis->values[i]);
+    mean[i] = spread->count > 0 ? spread->mean : NAN;
+    low[i] = mean[i] - deviation, high[i] = mean[i] + deviation;
+    least = fmin(least, x[i]), most = fmax(most, x[i]);
+  }
   SporeError fault = SPORE_ERROR_INIT;
-  const SporePlotLine line = {.label = _("mean"), .count = count, .x = x, .y = mean, .low = low, .high = high};
-  const SporePlotPanel panel = {.x_label = view->table->sweep->axes[view->axis[0]],
+  const SporePlotLine line = {.label = _("mean"), .count = axis->count, .x = x, .y = mean, .low = low, .high = high};
+  const SporePlotPanel panel = {.x_label = axis->name,
                                 .y_label = view->table->quantities[view->quantity],
-                                .log_x = numeric && wide && most > 50 * least,
+                                .log_x = numeric && least > 0 && most > 50 * least,
                                 .lines = &line,
                                 .line_count = 1};
   char *svg = spore_plot_svg(title, note->str, &panel, 1, &fault);
@@ -161,19 +177,14 @@ static char *draw_curve(const View *view, const char *title, GError **error) {
 #define BELOW 86.
 #define CELLS_MAXIMUM 40 /* along an axis */
 
-static void format_short(double value, char text[SPORE_NUMBER_TEXT]) {
-  double unit = value != 0 ? pow(10, floor(log10(fabs(value))) - 3) : 1;
-  text[spore_number_format(unit < 1 ? round(value / unit) / round(1 / unit) : round(value / unit) * unit, text)] = '\0';
-}
-
 /* Dark is much; the number stands in the cell, so that shades are not all there is to go by. */
-static void draw_cell(SporeTextBuffer *svg, double x, double y, Spread spread, double least, double most) {
-  double part = most > least ? (spread.mean - least) / (most - least) : 0;
+static void draw_cell(SporeTextBuffer *svg, double x, double y, const Spread *spread, double least, double most) {
+  double part = spread->count > 0 && most > least ? (spread->mean - least) / (most - least) : 0;
   int shade = (int)(110 * part);
   g_autofree char *fill =
       g_strdup_printf(" fill=\"#%02x%02x%02x\" stroke=\"#888888\"", 250 - shade * 3 / 2, 250 - shade, 255 - shade / 4);
   char digits[SPORE_NUMBER_TEXT] = "?";
-  if (spread.count > 0) format_short(spread.mean, digits);
+  if (spread->count > 0) spore_number_format_rounded(spread->mean, 4, digits);
   spore_svg_rectangle(svg, x, y, CELL_WIDTH, CELL_HEIGHT, fill);
   spore_svg_text(svg, x + CELL_WIDTH / 2, y + CELL_HEIGHT / 2 + 4, " text-anchor=\"middle\"", digits);
 }
@@ -182,30 +193,30 @@ static void draw_labels(SporeTextBuffer *svg, const View *view, guint columns, g
   double bottom = TOP + CELL_HEIGHT * rows;
   for (guint c = 0; c < columns; c++)
     spore_svg_text(svg, LEFT + CELL_WIDTH * (c + 0.5), bottom + 18, " text-anchor=\"middle\" font-size=\"11\"",
-                   view->values[0][c]);
+                   view->axes[0].values[c]);
   for (guint r = 0; r < rows; r++)
     spore_svg_text(svg, LEFT - 8, bottom - CELL_HEIGHT * (r + 0.5) + 4, " text-anchor=\"end\" font-size=\"11\"",
-                   view->values[1][r]);
-  spore_svg_text(svg, LEFT + CELL_WIDTH * columns / 2, bottom + 42, " text-anchor=\"middle\"",
-                 view->table->sweep->axes[view->axis[0]]);
-  spore_svg_text(svg, 8, TOP - 10, "", view->table->sweep->axes[view->axis[1]]);
+                   view->axes[1].values[r]);
+  spore_svg_text(svg, LEFT + CELL_WIDTH * columns / 2, bottom + 42, " text-anchor=\"middle\"", view->axes[0].name);
+  spore_svg_text(svg, 8, TOP - 10, "", view->axes[1].name);
   spore_svg_text(svg, LEFT, bottom + 68, " fill=\"#444444\"", _("Means of all cases there; ?: no result."));
 }
 
 static char *draw_map(const View *view, const char *title, GError **error) {
-  guint columns = MIN(CELLS_MAXIMUM, g_strv_length(view->values[0])),
-        rows = MIN(CELLS_MAXIMUM, g_strv_length(view->values[1]));
+  const PlotAxis *along = &view->axes[0], *up = &view->axes[1];
+  guint columns = MIN(CELLS_MAXIMUM, along->count), rows = MIN(CELLS_MAXIMUM, up->count);
+  g_autofree Spread *spreads = spreads_of(view);
   double least = HUGE_VAL, most = -HUGE_VAL;
-  for (guint c = 0; c < columns; c++)
-    for (guint r = 0; r < rows; r++) {
-      Spread spread = spread_at(view, c, (int)r);
-      if (spread.count > 0) least = fmin(least, spread.mean), most = fmax(most, spread.mean);
+  for (guint r = 0; r < rows; r++)
+    for (guint c = 0; c < columns; c++) {
+      const Spread *spread = &spreads[r * along->count + c];
+      if (spread->count > 0) least = fmin(least, spread->mean), most = fmax(most, spread->mean);
     }
   SporeTextBuffer svg = {0};
   spore_svg_open(&svg, title, LEFT + CELL_WIDTH * columns + RIGHT, TOP + CELL_HEIGHT * rows + BELOW);
-  for (guint c = 0; c < columns; c++)
-    for (guint r = 0; r < rows; r++)
-      draw_cell(&svg, LEFT + CELL_WIDTH * c, TOP + CELL_HEIGHT * (rows - 1 - r), spread_at(view, c, (int)r), least,
+  for (guint r = 0; r < rows; r++)
+    for (guint c = 0; c < columns; c++)
+      draw_cell(&svg, LEFT + CELL_WIDTH * c, TOP + CELL_HEIGHT * (rows - 1 - r), &spreads[r * along->count + c], least,
                 most);
   draw_labels(&svg, view, columns, rows);
   spore_text_add(&svg, "</svg>\n");
@@ -221,7 +232,7 @@ char *spore_sweep_svg(const SporeSweepTable *table, guint quantity, const char *
   g_autofree char *name = g_path_get_basename(table->sweep->file),
                   *title = g_strdup_printf("%s: %s", name, table->quantities[quantity]), *svg = NULL;
   if (choose_axes(&view, over, error))
-    svg = view.axis[1] >= 0 ? draw_map(&view, title, error) : draw_curve(&view, title, error);
+    svg = view.axes[1].name ? draw_map(&view, title, error) : draw_curve(&view, title, error);
   view_clear(&view);
   return g_steal_pointer(&svg);
 }

@@ -38,7 +38,8 @@ typedef struct Worker {
 typedef struct Farm {
   SporeCli *cli;
   const SporeManifest *sweep;
-  GPtrArray *waiting; /* cases, the next one last */
+  GPtrArray *waiting; /* cases */
+  guint next;         /* of these */
   Worker *workers;
   guint jobs, working, total, done, busy;
   GPtrArray *failed; /* cases */
@@ -163,9 +164,9 @@ static void close_worker(const Farm *farm, Worker *worker) {
 static gboolean keep(Farm *farm, Worker *worker, int ended, GError **error) {
   int status = WIFSIGNALED(ended) ? 128 + WTERMSIG(ended) : WEXITSTATUS(ended);
   g_autofree char *said = said_by(worker), *file = spore_sweep_result_file(farm->sweep, worker->one);
-  JsonNode *output = output_of(worker);
-  gboolean failed = status > SPORE_EXIT_NOT_HELD || !output;
-  g_autofree char *text = format_result(farm, worker, status, said, output);
+  const SporeSweepResult result = {.status = status, .output = output_of(worker)};
+  gboolean failed = spore_sweep_result_failed(&result);
+  g_autofree char *text = format_result(farm, worker, status, said, result.output);
   gboolean kept = spore_write_file(file, text, strlen(text), error);
   if (failed) {
     g_ptr_array_add(farm->failed, (gpointer)worker->one);
@@ -189,16 +190,16 @@ static void end_all(Farm *farm) {
 
 /* The next case that has no result and that nobody else works on; NULL: there is none. */
 static const SporeSweepCase *next_case(Farm *farm) {
-  while (farm->waiting->len > 0) {
-    const SporeSweepCase *one = g_ptr_array_steal_index(farm->waiting, farm->waiting->len - 1);
+  while (farm->next < farm->waiting->len) {
+    const SporeSweepCase *one = g_ptr_array_index(farm->waiting, farm->next++);
     if (!take_case(farm, one)) {
       farm->busy++;
       continue;
     }
     g_autoptr(SporeSweepResult) result = spore_sweep_result_read(farm->sweep, one, NULL);
-    if (!result || !spore_sweep_result_is_final(result)) return one; /* else somebody was faster */
+    if (!result || !spore_sweep_result_is_final(result)) return one;
     leave_case(farm, one);
-    farm->done++;
+    farm->total--; /* somebody was faster */
   }
   return NULL;
 }
@@ -277,7 +278,7 @@ static gboolean add_case(Farm *farm, const SporeSweepCase *one, GHashTable *hash
     return TRUE;
   }
   if (!check_scene(farm->cli, farm->sweep, one, hashes, error)) return FALSE;
-  g_ptr_array_insert(farm->waiting, 0, (gpointer)one);
+  g_ptr_array_add(farm->waiting, (gpointer)one);
   return TRUE;
 }
 

@@ -152,14 +152,14 @@ char *spore_sweep_csv(const SporeSweepTable *table) {
     g_string_append_printf(csv, "%u,", i);
     for (char **value = one->values; *value; value++) add_field(csv, *value);
     char digits[SPORE_NUMBER_TEXT];
-    digits[spore_number_format(result->seconds, digits)] = '\0';
+    spore_number_format(result->seconds, digits);
     g_string_append_printf(csv, "%" G_GINT64_FORMAT ",%s,", result->status, digits);
     add_field(csv, result->host);
     g_string_append_printf(csv, "%" G_GINT64_FORMAT ",", result->core);
     for (guint k = 0; k < columns; k++) {
       double value = table->values[i * columns + k];
-      digits[isnan(value) ? 0 : spore_number_format(value, digits)] = '\0';
-      g_string_append_printf(csv, "%s,", digits);
+      spore_number_format(value, digits);
+      g_string_append_printf(csv, "%s,", isnan(value) ? "" : digits);
     }
     end_row(csv);
   }

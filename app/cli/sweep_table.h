@@ -21,7 +21,7 @@ int spore_sweep_index(char *const *names, const char *name);
 
 /* Comma-separated, a line for each case; g_free. */
 char *spore_sweep_csv(const SporeSweepTable *table);
-/* The quantity over one axis (its mean, with its standard deviation and range over all else), or over two: a map of
+/* The quantity over one axis (its mean, with its standard deviation over all else), or over two: a map of
  * means. over: names of axes with a comma between them; NULL: the first two of more than one value, repeats apart.
  * g_free. */
 char *spore_sweep_svg(const SporeSweepTable *table, guint quantity, const char *over, GError **error);

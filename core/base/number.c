@@ -1,6 +1,7 @@
 /* Numbers to text and back, whatever the locale. */
 #include "core/base/number.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -75,4 +76,11 @@ int spore_number_format(double value, char text[SPORE_NUMBER_TEXT]) {
     double back;
     if (precision >= 17 || (spore_number_read(text, (size_t)length, &back) && back == value)) return length;
   }
+}
+
+int spore_number_format_rounded(double value, int digits, char text[SPORE_NUMBER_TEXT]) {
+  assert(digits >= 1);
+  double unit = value != 0 && isfinite(value) ? pow(10, floor(log10(fabs(value))) - digits + 1) : 1;
+  double rounded = unit < 1 ? round(value / unit) / round(1 / unit) : round(value / unit) * unit;
+  return spore_number_format(rounded, text);
 }

@@ -13,5 +13,7 @@ size_t spore_number_read(const char *text, size_t size, double *value);
 
 /* Shortest text that reads back to the same bits; returns its length. Not finite: "inf", "-inf", "nan". */
 int spore_number_format(double value, char text[SPORE_NUMBER_TEXT]);
+/* The same of the value rounded to so many significant digits, from 1 on. */
+int spore_number_format_rounded(double value, int digits, char text[SPORE_NUMBER_TEXT]);
 
 #endif

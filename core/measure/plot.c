@@ -47,10 +47,7 @@ const SporePlotStyle spore_plot_styles[SPORE_PLOT_COLOURS] = {
 /* A length to a hundredth of a pixel. */
 static void add_number(SporeTextBuffer *text, double value) { spore_text_add_number(text, round(value * 100) / 100); }
 
-static void format_tick(double value, char text[SPORE_NUMBER_TEXT]) {
-  double unit = value != 0 ? pow(10, floor(log10(fabs(value))) - 5) : 1;
-  text[spore_number_format(unit < 1 ? round(value / unit) / round(1 / unit) : round(value / unit) * unit, text)] = '\0';
-}
+#define TICK_DIGITS 6
 
 #define GRID " stroke=\"#dddddd\" stroke-width=\"1\""
 #define FRAME " stroke=\"#444444\" stroke-width=\"1\""
@@ -63,13 +60,13 @@ static void draw_axes(SporeTextBuffer *text, const SporePlotAxis *x, const Spore
     double at = spore_plot_axis_place(x, x->tick[i]);
     spore_svg_line(text, at, y->from, at, y->to, GRID);
     if (at - last < 26) continue; /* no room for its number */
-    format_tick(x->tick[i], number);
+    spore_number_format_rounded(x->tick[i], TICK_DIGITS, number);
     spore_svg_text(text, last = at, y->from + LINE_OF_TEXT, " text-anchor=\"middle\"", number);
   }
   for (size_t i = 0; i < y->ticks; i++) {
     double at = spore_plot_axis_place(y, y->tick[i]);
     spore_svg_line(text, x->from, at, x->to, at, GRID);
-    format_tick(y->tick[i], number);
+    spore_number_format_rounded(y->tick[i], TICK_DIGITS, number);
     spore_svg_text(text, x->from - 7, at + 4, " text-anchor=\"end\"", number);
   }
   spore_svg_line(text, x->from, y->from, x->to, y->from, FRAME);

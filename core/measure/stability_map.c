@@ -62,8 +62,7 @@ static void draw_axes(SporeTextBuffer *svg, const SporeStabilityMap *map) {
   double bottom = TOP + CELL_HEIGHT * (double)map->rows, right = LEFT + CELL_WIDTH * (double)map->columns;
   for (size_t c = 0; c < map->columns; c++) {
     char digits[SPORE_NUMBER_TEXT];
-    double ms = 1e3 * map->time_step_s[c], unit = pow(10, floor(log10(ms)) - 2);
-    digits[spore_number_format(unit < 1 ? round(ms / unit) / round(1 / unit) : round(ms / unit) * unit, digits)] = '\0';
+    spore_number_format_rounded(1e3 * map->time_step_s[c], 3, digits);
     spore_svg_text(svg, LEFT + CELL_WIDTH * ((double)c + 0.5), bottom + LINE_OF_TEXT, " text-anchor=\"middle\"",
                    digits);
   }

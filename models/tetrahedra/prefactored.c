@@ -84,8 +84,8 @@ static bool serves(const SporePrefactored *prefactored, const SporePrefactor *fa
 
 SporePrefactor *spore_prefactored_find(SporePrefactored *prefactored, const SporeTetrahedra *tetrahedra,
                                        SporeElasticity elasticity, const SporeSweep *at) {
-  assert(at->h > 0 && prefactored->pattern.count > 0);
-  double stiffness = (1 + elasticity.viscosity / at->h) * (2 * elasticity.mu + 3 * elasticity.lambda);
+  assert(at->h > 0 && prefactored->pattern.count > 0 && elasticity.viscosity == 0);
+  double stiffness = 2 * elasticity.mu + 3 * elasticity.lambda;
   SporePrefactor *oldest = &prefactored->kept[0];
   prefactored->uses++;
   for (int k = 0; k < SPORE_PREFACTORS; k++) {

@@ -1,8 +1,8 @@
 /* Corotational tetrahedra moved all at once by a matrix that stays: what the method position_based asks of them.
  *
  * Where nodes have come to x without them, with masses M and h seconds after the step began, the elements move them by
- *   x += A^-1 h^2 f(x, (x - x0)/h),   A = M + h^2 (1 + eta/h) sum over elements of V k b b^T,
- * with the gradients b of the corners' weights, viscosity eta, and k no less than any stiffness of the law: 2 mu in
+ *   x += A^-1 h^2 f(x, (x - x0)/h),   A = M + h^2 sum over elements of V k b b^T,
+ * with the gradients b of the corners' weights and k no less than any stiffness of the law: 2 mu in
  * shear, where the frame of the element stands still, and up to 2 mu + 3 lambda in volume. That is one round of
  * projective dynamics (S. Bouaziz et al., "Projective dynamics: fusing constraint projections for fast simulation", ACM
  * Trans. Graph. 33, 2014) written as the first step of a quasi-Newton method (T. Liu, S. Bouaziz and L. Kavan,

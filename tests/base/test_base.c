@@ -140,7 +140,19 @@ static void check_numbers(void) {
   g_rand_free(random);
 }
 
+static void check_rounded(double value, int digits, const char *expected) {
+  char text[SPORE_NUMBER_TEXT];
+  spore_number_format_rounded(value, digits, text);
+  g_assert_cmpstr(text, ==, expected);
+}
+
 static void test_number(void) {
+  check_rounded(1.0 / 3, 3, "0.333");
+  check_rounded(-123456.7, 4, "-123500");
+  check_rounded(999.96, 4, "1000");
+  check_rounded(2e-7, 6, "2e-07");
+  check_rounded(0, 2, "0");
+  check_rounded(NAN, 2, "nan");
   check_numbers();
   char text[SPORE_NUMBER_TEXT];
   spore_number_format(0.1, text);

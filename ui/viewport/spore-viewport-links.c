@@ -32,11 +32,6 @@ static gboolean shows_links(SporeViewport *self) {
   return self->document && (!session || spore_session_snapshot(session)->time_s == 0);
 }
 
-static gboolean project(SporeViewport *self, SporeVec3 place, double *x, double *y) {
-  return spore_camera_project(&self->camera, place, gtk_widget_get_allocated_width(self->area),
-                              gtk_widget_get_allocated_height(self->area), x, y);
-}
-
 static void draw_dot(cairo_t *cr, double x, double y, gboolean chosen) {
   cairo_new_path(cr);
   cairo_arc(cr, x, y, chosen ? 1.5 * MARK_PIXELS : MARK_PIXELS, 0, 2 * G_PI);
@@ -61,7 +56,7 @@ static void draw_link(SporeViewport *self, cairo_t *cr, const Mark *mark) {
   gboolean chosen = spore_editor_document_get_selection(self->document) == mark->link;
   double at[SPORE_LINK_MOST_ENDS][2];
   for (guint end = 0; end < mark->count; end++)
-    if (!project(self, mark->places[end], &at[end][0], &at[end][1])) return;
+    if (!spore_viewport_project(self, mark->places[end], &at[end][0], &at[end][1])) return;
   if (mark->count > 1) draw_line(cr, at[0], at[1], chosen);
   for (guint end = 0; end < mark->count; end++) draw_dot(cr, at[end][0], at[end][1], chosen);
 }
@@ -75,7 +70,7 @@ static void draw_picking(SporeViewport *self, cairo_t *cr) {
   draw_line(cr, cross[0], cross[1], TRUE);
   draw_line(cr, cross[2], cross[3], TRUE);
   for (guint i = 0; i < self->anchor_count; i++) {
-    if (!project(self, self->anchors[i], &at[0], &at[1])) continue;
+    if (!spore_viewport_project(self, self->anchors[i], &at[0], &at[1])) continue;
     draw_line(cr, at, cursor, TRUE);
     draw_dot(cr, at[0], at[1], TRUE);
   }
@@ -101,8 +96,8 @@ guint32 spore_viewport_link_at(SporeViewport *self, double x, double y) {
   for (guint i = 0; shows_links(self) && i < self->link_marks->len; i++) {
     const Mark *mark = &g_array_index(self->link_marks, Mark, i);
     double from[2], to[2];
-    if (!project(self, mark->places[0], &from[0], &from[1]) ||
-        !project(self, mark->places[mark->count - 1], &to[0], &to[1]))
+    if (!spore_viewport_project(self, mark->places[0], &from[0], &from[1]) ||
+        !spore_viewport_project(self, mark->places[mark->count - 1], &to[0], &to[1]))
       continue;
     double distance = distance_to(from, to, x, y);
     if (distance <= nearest) nearest = distance, link = mark->link;

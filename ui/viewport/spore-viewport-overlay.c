@@ -181,10 +181,12 @@ static void append_pace(GString *text, double factor, double asked) {
 }
 
 /* What an author wants to know, and a clinician does not. */
-static void append_figures(GString *text, SporeSession *session, const SporeWorld *world, double late) {
-  const SporeSnapshot *snapshot = spore_session_snapshot(session);
-  SporeSessionFigures figures = spore_session_figures(session);
+static void append_figures(GString *text, const SporeSession *session, const SporeSnapshot *snapshot,
+                           const SporeSessionFigures *figures) {
+  const SporeWorld *world = spore_session_simulation(session)->world;
   double factor = spore_session_real_time_factor(session);
+  guint64 late, steps;
+  spore_session_late_steps(session, &late, &steps);
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Step %.2f ms"), snapshot->step_us / 1000);
   if (factor > 0) {
@@ -193,7 +195,7 @@ static void append_figures(GString *text, SporeSession *session, const SporeWorl
   }
   if (late > 0) {
     g_string_append(text, "  ·  ");
-    g_string_append_printf(text, _("%.1f %% of the steps late"), 100 * late);
+    g_string_append_printf(text, _("%.1f %% of the steps late"), 100 * (double)late / (double)steps);
   }
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
@@ -206,8 +208,8 @@ static void append_figures(GString *text, SporeSession *session, const SporeWorl
     g_string_append(text, "  ·  ");
     g_string_append_printf(text, _("%zu bodies at rest"), snapshot->counts.sleeping);
   }
-  append_solver(text, world, snapshot, &figures);
-  append_energy(text, snapshot, &figures);
+  append_solver(text, world, snapshot, figures);
+  append_energy(text, snapshot, figures);
   append_levels(text, world, snapshot);
 }
 
@@ -218,9 +220,6 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
   const SporeWorld *world = spore_session_simulation(session)->world;
   SporeSessionFigures figures = spore_session_figures(session);
-  guint64 late, steps;
-  spore_session_late_steps(session, &late, &steps);
-  double part = steps > 0 ? (double)late / (double)steps : 0;
   GString *text = g_string_new(NULL);
   g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
   append_pace(text, spore_session_real_time_factor(session), spore_session_get_speed(session));
@@ -231,7 +230,7 @@ void spore_viewport_overlay_update(SporeViewport *self) {
     g_string_append_printf(text, _("Probe force %.3f N"), spore_vec3_length(force));
   }
   append_unsolved(text, world, &figures);
-  if (self->figures) append_figures(text, session, world, part);
+  if (self->figures) append_figures(text, session, snapshot, &figures);
   gtk_label_set_text(GTK_LABEL(self->hud), text->str);
   g_string_free(text, TRUE);
 }

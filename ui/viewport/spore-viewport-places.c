@@ -55,11 +55,10 @@ static void draw_number(SporeViewport *self, cairo_t *cr, guint number, double x
 }
 
 void spore_viewport_places_draw(SporeViewport *self, cairo_t *cr) {
-  int width = gtk_widget_get_allocated_width(self->area), height = gtk_widget_get_allocated_height(self->area);
   for (guint k = 0; k < self->places.count; k++) {
     double x, y;
     SporeVec3 place = in_scene(self, k);
-    if (!spore_camera_project(&self->camera, place, width, height, &x, &y)) continue;
+    if (!spore_viewport_project(self, place, &x, &y)) continue;
     spore_viewport_draw_handle(self, cr, place, TRUE);
     draw_number(self, cr, k + 1, x, y);
   }

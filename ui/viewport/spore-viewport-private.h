@@ -78,6 +78,8 @@ void spore_viewport_look_afresh(SporeViewport *self);
 void spore_viewport_leave_scene_camera(SporeViewport *self);
 void spore_viewport_clear_legend(SporeViewport *self);
 
+/* Where a place of the scene stands in the view, pixels. FALSE: behind the camera. */
+gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y);
 /* Handles: discs of a fixed size on the screen, at places of the scene. */
 void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled);
 gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y);

@@ -77,19 +77,19 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
 
 /* Handles. */
 
-static gboolean project(SporeViewport *self, SporeVec3 handle, double *x, double *y) {
-  return spore_camera_project(&self->camera, handle, gtk_widget_get_allocated_width(self->area),
+gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y) {
+  return spore_camera_project(&self->camera, place, gtk_widget_get_allocated_width(self->area),
                               gtk_widget_get_allocated_height(self->area), x, y);
 }
 
 gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y) {
   double at_x, at_y;
-  return project(self, handle, &at_x, &at_y) && hypot(at_x - x, at_y - y) <= REACH_PIXELS;
+  return spore_viewport_project(self, handle, &at_x, &at_y) && hypot(at_x - x, at_y - y) <= REACH_PIXELS;
 }
 
 void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled) {
   double x, y;
-  if (!project(self, handle, &x, &y)) return;
+  if (!spore_viewport_project(self, handle, &x, &y)) return;
   cairo_new_path(cr);
   cairo_arc(cr, x, y, HANDLE_PIXELS, 0, 2 * G_PI);
   if (filled) cairo_set_source_rgb(cr, 1, 0.85, 0.3);
