@@ -1,0 +1,40 @@
+/* What the formats of `spore export` share: a format is one row of the table in export.c, and one function. */
+#ifndef SPORE_APP_CLI_EXPORT_H
+#define SPORE_APP_CLI_EXPORT_H
+
+#include "app/cli/cli.h"
+#include "core/haptic/track.h"
+
+/* One export: what a format is given, and what the format has to tell. */
+typedef struct SporeExport {
+  SporeCli *cli;
+  SporeDocument *document; /* with --set, --dt and --integrator applied */
+  const SporeTrack *input; /* of --input; NULL: none was given */
+  const char *output;
+  GArray *written;            /* of SporeExported */
+  GPtrArray *lost, *left_out; /* sentences, g_free */
+} SporeExport;
+
+typedef struct SporeExported {
+  char *file;
+  gsize bytes;
+} SporeExported;
+
+void spore_export_init(SporeExport *export); /* of an export that has its cli and output */
+void spore_export_clear(SporeExport *export);
+/* Members of the report, and lines for people. */
+void spore_export_report(const SporeExport *export);
+
+/* Writes the export's file whole or not at all. The content stays the caller's. */
+gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error);
+/* Tells of a file that was written already. */
+void spore_export_wrote(SporeExport *export, const char *file, gsize bytes);
+/* Adds a sentence, translated: what the scene holds and the format cannot. Takes over the text. */
+void spore_export_lose(SporeExport *export, char *sentence);
+/* The same: what the scene holds and the file does not need. */
+void spore_export_leave_out(SporeExport *export, char *sentence);
+
+/* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
+gboolean spore_export_runtime(SporeExport *export, GError **error);
+
+#endif
