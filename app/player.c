@@ -1,13 +1,12 @@
 /* spore-player: runs a runtime file. Needs libc and libm alone, and no more of SPORE than libspore. */
 #include <errno.h>
-#include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/player_report.h"
 #include "core/base/text.h"
-#include "models/spore.h"
 
 enum { DONE = 0, NOT_SOLVED = 1, INPUT = 2, FAULT = 3, INTERRUPTED = 130 };
 
@@ -58,77 +57,6 @@ static int parse(int argc, char **argv, Options *options) {
   return options->file ? DONE : usage(_("no file is given"), "");
 }
 
-/* A text between quotation marks, as JSON has it. */
-static void print_text(const char *text) {
-  putchar('"');
-  for (; *text; text++) {
-    if (*text == '"' || *text == '\\') printf("\\%c", *text);
-    else if ((unsigned char)*text < 0x20) printf("\\u%04x", (unsigned)*text);
-    else putchar(*text);
-  }
-  putchar('"');
-}
-
-static void print_names(SporeRuntime *runtime) {
-  const SporeWorld *world = spore_runtime_world(runtime);
-  printf("\"bodies\": [");
-  for (uint32_t i = 0; i < spore_world_body_count(world); i++) {
-    if (i > 0) printf(", ");
-    print_text(spore_world_body_name(world, i));
-  }
-  printf("], \"tools\": [");
-  for (size_t i = 0; i < spore_world_tool_count(world); i++) {
-    if (i > 0) printf(", ");
-    print_text(spore_world_tool_state(world, i).name);
-  }
-  printf("], \"visuals\": [");
-  for (size_t i = 0; i < spore_runtime_visual_count(runtime); i++) {
-    const SporeRuntimeVisual *visual = spore_runtime_visual(runtime, i);
-    printf("%s{\"body\": ", i > 0 ? ", " : "");
-    print_text(spore_world_body_name(world, visual->body));
-    printf(", \"vertices\": %zu, \"triangles\": %zu}", visual->mesh->vertex_count, visual->mesh->triangle_count);
-  }
-  printf("]");
-}
-
-static void say_unsolved(const SporeWorld *world) {
-  for (size_t i = 0; i < spore_world_unsolved_count(world); i++) {
-    const SporeUnsolved unsolved = spore_world_unsolved(world, i);
-    printf(_("%s: %llu steps not solved as written: %s; %s\n"), spore_world_body_name(world, unsolved.body),
-           (unsigned long long)unsolved.steps, unsolved.cause, unsolved.remedy);
-  }
-}
-
-static void print_unsolved(const SporeWorld *world) {
-  printf("\"unsolved\": [");
-  for (size_t i = 0; i < spore_world_unsolved_count(world); i++) {
-    const SporeUnsolved unsolved = spore_world_unsolved(world, i);
-    printf("%s{\"body\": ", i > 0 ? ", " : "");
-    print_text(spore_world_body_name(world, unsolved.body));
-    printf(", \"steps\": %llu, \"cause\": ", (unsigned long long)unsolved.steps);
-    print_text(unsolved.cause);
-    printf("}");
-  }
-  printf("], ");
-}
-
-static void report(SporeRuntime *runtime, const Options *options) {
-  const SporeWorld *world = spore_runtime_world(runtime);
-  const uint64_t steps = spore_world_step_count(world), hash = spore_world_hash(world);
-  if (!options->json) {
-    printf(_("%llu steps, %g s, state %016llx\n"), (unsigned long long)steps, spore_world_time_s(world),
-           (unsigned long long)hash);
-    say_unsolved(world);
-    return;
-  }
-  printf("{\"file\": ");
-  print_text(options->file);
-  printf(", \"steps\": %" PRIu64 ", \"time_s\": %.17g, ", steps, spore_world_time_s(world));
-  print_unsolved(world);
-  print_names(runtime);
-  printf(", \"state_hash\": \"%016" PRIx64 "\"}\n", hash);
-}
-
 int main(int argc, char **argv) {
   Options options = {.steps = 1000};
   SporeError error = SPORE_ERROR_INIT;
@@ -142,12 +70,15 @@ int main(int argc, char **argv) {
     return interrupted ? INTERRUPTED : error.code == SPORE_ERROR_INTERNAL ? FAULT : INPUT;
   }
   SporeWorld *world = spore_runtime_world(runtime);
+  SporeExercise *exercise = spore_runtime_exercise(runtime);
   for (uint64_t i = 0; i < options.steps && !interrupted; i++) {
     spore_world_step(world);
     if (spore_world_cancelled(world)) break;
     spore_world_tidy(world); /* as `spore run` does: it is part of what the state follows from */
+    if (exercise) spore_exercise_watch(exercise, world);
   }
-  if (!interrupted) report(runtime, &options);
+  if (!interrupted && options.json) spore_player_print(runtime, options.file);
+  else if (!interrupted) spore_player_say(runtime);
   status = interrupted ? INTERRUPTED : spore_world_unsolved_count(world) > 0 ? NOT_SOLVED : DONE;
   spore_runtime_free(runtime);
   if (fflush(stdout) != 0) status = INPUT;

@@ -16,6 +16,7 @@
 #include "core/base/progress.h"
 #include "core/base/threads.h"
 #include "core/collide/sphere.h"
+#include "core/exercise/exercise.h"
 #include "core/haptic/device.h"
 #include "core/haptic/track.h"
 #include "core/integrate/solver.h"

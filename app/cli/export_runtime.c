@@ -16,8 +16,6 @@ gboolean spore_export_runtime(SporeExport *export, GError **error) {
     spore_export_lose(export, g_strdup_printf(_("%s: it has no visual mesh, and what SPORE draws in place of one "
                                                 "is not in the file"),
                                               (const char *)undrawn->pdata[i]));
-  if (spore_object_child_count(spore_document_section(export->document, "exercise")) > 0)
-    spore_export_lose(export, g_strdup(_("the exercise: its steps and metrics are not in the file")));
   spore_export_leave_out(
       export, g_strdup(_("comments, metadata, settings of generators, colours and names of tissues, unused assets")));
   return done;

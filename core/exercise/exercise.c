@@ -93,6 +93,8 @@ static void order_steps(SporeExercise *exercise) {
 
 static SporeView view_in_frame(const SporeView *from, const SporeWorld *world) {
   SporeView view = *from;
+  const SporeModel *model = view.body == SPORE_NO_BODY ? NULL : spore_world_body_model(world, view.body);
+  if (model && !spore_model_is_rigid(model)) view.body = SPORE_NO_BODY;
   if (view.body == SPORE_NO_BODY) return view;
   SporePose start = spore_world_start_pose(world, view.body);
   view.position = spore_pose_apply_inverse(start, from->position);

@@ -43,7 +43,7 @@ typedef struct SporeInstrument {
 typedef struct SporeView {
   SporeVec3 position, target; /* world at time 0, m */
   double field_of_view;       /* rad */
-  uint32_t body;              /* that the camera moves with; SPORE_NO_BODY: none */
+  uint32_t body;              /* that the camera moves with, where it is stiff; SPORE_NO_BODY: none */
 } SporeView;
 
 /* A step of an exercise that is to be made. */

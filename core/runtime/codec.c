@@ -174,6 +174,18 @@ static bool transfer_type(SporeCodec *codec, const SporeRow *row, const void **t
                                   name);
 }
 
+/* The type in the first member. */
+static const void *type_of(const SporeRowTable *table, const void *structure) {
+  const void *type;
+  assert(table->rows[0].kind == SPORE_ROW_TYPE && table->rows[0].offset == 0);
+  memcpy(&type, structure, sizeof type);
+  return type;
+}
+
+static bool transfer_type_values(SporeCodec *codec, const SporeRow *row, const void *type, void *fields) {
+  return !type || transfer_parameters(codec, row->name, row->types->parameters(type), fields);
+}
+
 static bool transfer_type_fields(SporeCodec *codec, const SporeRow *row, const void *type, void **fields) {
   if (!type) return true;
   const SporeParameterTable *table = row->types->parameters(type);
@@ -192,6 +204,7 @@ static size_t least_bytes(const SporeRowTable *table) {
     case SPORE_ROW_SKIPPED:
     case SPORE_ROW_OPTION:
     case SPORE_ROW_TYPE_FIELDS:
+    case SPORE_ROW_TYPE_VALUES:
       break;
     case SPORE_ROW_REALS:
       bytes += row->repeat * sizeof(double);
@@ -267,8 +280,9 @@ static bool transfer_row(SporeCodec *codec, const SporeRowTable *table, const Sp
   case SPORE_ROW_TYPE:
     return transfer_type(codec, row, member);
   case SPORE_ROW_TYPE_FIELDS:
-    assert(table->rows[0].kind == SPORE_ROW_TYPE && table->rows[0].offset == 0);
-    return transfer_type_fields(codec, row, *(const void **)structure, member);
+    return transfer_type_fields(codec, row, type_of(table, structure), member);
+  case SPORE_ROW_TYPE_VALUES:
+    return transfer_type_values(codec, row, type_of(table, structure), member);
   case SPORE_ROW_POINTER:
     return transfer_pointer(codec, row, structure, member);
   }

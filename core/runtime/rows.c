@@ -31,6 +31,8 @@
   {}
 #define GUARD_TYPE 0
 #define GUARD_TYPE_FIELDS 0
+#define GUARD_TYPE_VALUES                                                                                              \
+  {}
 #define GUARD_POINTER 0
 
 #define GUARD(Type, member, what, ...) GUARD_##what,
@@ -96,7 +98,7 @@ TABLE(static, regions, SporeRegions, REGIONS)
   X(T, corners, POINTER, .count = SPORE_ROW_ONCE, .repeat = 12, .element = SPORE_ROW_REAL)
 TABLE(static, geometry, SporeGeometry, GEOMETRY)
 
-/* Models, links and tools are named by their types. */
+/* Models, links, tools, steps and metrics are named by their types. */
 
 static const void *find_model(SporeModelRegistry registry, const char *name) {
   return spore_model_type_find(registry, name);
@@ -114,6 +116,16 @@ static const void *find_tool(SporeModelRegistry registry, const char *name) { re
 static const char *name_of_tool(const void *type) { return ((const SporeToolType *)type)->element; }
 static const SporeParameterTable *of_tool(const void *type) { return &((const SporeToolType *)type)->parameters; }
 static const SporeRowTypes tool_types = {find_tool, name_of_tool, of_tool};
+
+static const void *find_event(SporeModelRegistry registry, const char *name) { return spore_event_kind_find(name); }
+static const char *name_of_event(const void *type) { return ((const SporeEventKind *)type)->element; }
+static const SporeParameterTable *of_event(const void *type) { return &((const SporeEventKind *)type)->parameters; }
+static const SporeRowTypes event_types = {find_event, name_of_event, of_event};
+
+static const void *find_metric(SporeModelRegistry registry, const char *name) { return spore_metric_kind_find(name); }
+static const char *name_of_metric(const void *type) { return ((const SporeMetricKind *)type)->element; }
+static const SporeParameterTable *of_metric(const void *type) { return &((const SporeMetricKind *)type)->parameters; }
+static const SporeRowTypes metric_types = {find_metric, name_of_metric, of_metric};
 
 #define RECIPE(X, T)                                                                                                   \
   X(T, type, TYPE, .types = &model_types)                                                                              \
@@ -239,12 +251,58 @@ TABLE(static, track, SporeTrack, TRACK)
 #define VISUAL(X, T) X(T, body, BODY) X(T, mesh, POINTER, ONE(triangles))
 TABLE(static, visual, SporeRuntimeVisual, VISUAL)
 
+/* The exercise. */
+
+#define INSTRUMENT(X, T)                                                                                               \
+  X(T, name, TEXT)                                                                                                     \
+  X(T, bodies, BODIES, .repeat = SPORE_TOOL_BODIES)                                                                    \
+  X(T, tool, WORD)
+TABLE(static, instrument, SporeInstrument, INSTRUMENT)
+
+#define VIEW(X, T)                                                                                                     \
+  X(T, position, REALS, DOUBLES(SporeVec3))                                                                            \
+  X(T, target, REALS, DOUBLES(SporeVec3))                                                                              \
+  X(T, field_of_view, REAL)                                                                                            \
+  X(T, body, BODY)
+TABLE(static, view, SporeView, VIEW)
+
+#define EVENT(X, T)                                                                                                    \
+  X(T, kind, TYPE, .types = &event_types)                                                                              \
+  X(T, fields, TYPE_VALUES, .types = &event_types)                                                                     \
+  X(T, instrument, WORD)                                                                                               \
+  X(T, body, BODY)                                                                                                     \
+  X(T, container, BODY)                                                                                                \
+  X(T, after, WORD)
+TABLE(static, event, SporeExerciseStep, EVENT)
+
+#define METRIC(X, T)                                                                                                   \
+  X(T, kind, TYPE, .types = &metric_types)                                                                             \
+  X(T, fields, TYPE_VALUES, .types = &metric_types)                                                                    \
+  X(T, instrument, WORD)                                                                                               \
+  X(T, body, BODY)                                                                                                     \
+  X(T, view, WORD)
+TABLE(static, metric, SporeExerciseMetric, METRIC)
+
+#define EXERCISE(X, T)                                                                                                 \
+  X(T, fields, FIELDS, .parameters = &spore_exercise_parameters)                                                       \
+  X(T, up, REALS, DOUBLES(SporeVec3))                                                                                  \
+  X(T, instrument_count, SIZE)                                                                                         \
+  X(T, view_count, SIZE)                                                                                               \
+  X(T, step_count, SIZE)                                                                                               \
+  X(T, metric_count, SIZE)                                                                                             \
+  X(T, instruments, POINTER, RECORDS(T, instrument_count, 1, instrument))                                              \
+  X(T, views, POINTER, RECORDS(T, view_count, 1, view))                                                                \
+  X(T, steps, POINTER, RECORDS(T, step_count, 1, event))                                                               \
+  X(T, metrics, POINTER, RECORDS(T, metric_count, 1, metric))
+TABLE(static, exercise, SporeExerciseDescription, EXERCISE)
+
 #define SCENE(X, T)                                                                                                    \
   X(T, world, RECORD, .table = &world)                                                                                 \
   X(T, recipes, POINTER, RECORDS(T, world.body_count, SPORE_LOD_COUNT, recipe))                                        \
   X(T, visual_count, SIZE)                                                                                             \
   X(T, visuals, POINTER, RECORDS(T, visual_count, 1, visual))                                                          \
-  X(T, track, RECORD, .table = &track)
+  X(T, track, RECORD, .table = &track)                                                                                 \
+  X(T, exercise, RECORD, .table = &exercise)
 TABLE(, spore_rows_scene, SporeRuntimeScene, SCENE)
 
 /* Signatures. */

@@ -22,6 +22,7 @@ typedef enum SporeRowKind {
   SPORE_ROW_FIELDS,      /* a structure of `parameters` */
   SPORE_ROW_TYPE,        /* a pointer to one of `types`; NULL: none */
   SPORE_ROW_TYPE_FIELDS, /* a pointer to a structure of the parameters of the type in the first member */
+  SPORE_ROW_TYPE_VALUES, /* such a structure itself */
   SPORE_ROW_POINTER      /* a pointer to `repeat` elements (kind `element`) times the count at `count`; NULL: none */
 } SporeRowKind;
 

@@ -1,4 +1,4 @@
-/* Loads a runtime file: its scene, the models, the world and the recorded devices. */
+/* Loads a runtime file: its scene, the models, the world, the recorded devices and the exercise. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,13 +63,20 @@ static bool open_devices(SporeRuntime *runtime, SporeError *error) {
   return true;
 }
 
+static bool make_exercise(SporeRuntime *runtime, SporeError *error) {
+  const SporeExerciseDescription *exercise = &runtime->scene.exercise;
+  if (exercise->step_count + exercise->metric_count == 0) return true;
+  runtime->exercise = spore_exercise_create(exercise, runtime->world, error);
+  return runtime->exercise != NULL;
+}
+
 SporeRuntime *spore_runtime_parse(const char *place, const void *content, size_t size, SporeModelRegistry registry,
                                   SporePool *pool, const SporeCancel *cancel, SporeError *error) {
   SporeError fault = SPORE_ERROR_INIT;
   SporeRuntime *runtime = SPORE_NEW(SporeRuntime);
   bool done = runtime ? spore_runtime_read(runtime, content, size, registry, &fault) : no_memory(&fault);
   done = done && spore_runtime_trust(&runtime->scene, &fault) && make_world(runtime, pool, cancel, &fault) &&
-         open_devices(runtime, &fault);
+         open_devices(runtime, &fault) && make_exercise(runtime, &fault);
   if (done) {
     runtime->maps =
         spore_arena_allocate(&runtime->arena, SPORE_LOD_COUNT * runtime->scene.visual_count, sizeof *runtime->maps);
@@ -124,6 +131,7 @@ SporeRuntime *spore_runtime_load(const char *file, SporeModelRegistry registry, 
 
 void spore_runtime_free(SporeRuntime *runtime) {
   if (!runtime) return;
+  spore_exercise_free(runtime->exercise);
   spore_world_free(runtime->world);
   for (size_t i = 0; runtime->devices && i < runtime->scene.track.channel_count; i++)
     if (runtime->devices[i]) runtime->devices[i]->type->close(runtime->devices[i]);
@@ -134,5 +142,7 @@ void spore_runtime_free(SporeRuntime *runtime) {
 }
 
 SporeWorld *spore_runtime_world(SporeRuntime *runtime) { return runtime->world; }
+
+SporeExercise *spore_runtime_exercise(SporeRuntime *runtime) { return runtime->exercise; }
 
 size_t spore_runtime_visual_count(const SporeRuntime *runtime) { return runtime->scene.visual_count; }

@@ -7,6 +7,7 @@
 #ifndef SPORE_RUNTIME_RUNTIME_H
 #define SPORE_RUNTIME_RUNTIME_H
 
+#include "core/exercise/exercise.h"
 #include "core/haptic/track.h"
 #include "core/sim/world.h"
 
@@ -29,13 +30,14 @@ typedef struct SporeRuntimeScene {
   const SporeModelRecipe *recipes; /* three a body, by SporeLodGrade */
   size_t visual_count;
   const SporeRuntimeVisual *visuals;
-  SporeTrack track; /* recorded input of active bodies, by their names */
+  SporeTrack track;                  /* recorded input of active bodies, by their names */
+  SporeExerciseDescription exercise; /* without steps and metrics: there is none */
 } SporeRuntimeScene;
 
 /* The content of a runtime file, from spore_allocate; *size: its bytes. NULL: no memory. */
 void *spore_runtime_format(const SporeRuntimeScene *scene, size_t *size);
 
-/* A scene that was loaded: its world, its recorded devices and its visual meshes. */
+/* A scene that was loaded: its world, its recorded devices, its exercise and its visual meshes. */
 typedef struct SporeRuntime SporeRuntime;
 
 /* Loads a file. registry: the models that it may name (spore_model_registry). The pool and cancel are borrowed, as by
@@ -53,6 +55,9 @@ void spore_runtime_free(SporeRuntime *runtime);
 
 /* The world, owned by the runtime. It names bodies (spore_world_body_name) and tools (spore_world_tool_state). */
 SporeWorld *spore_runtime_world(SporeRuntime *runtime);
+/* The exercise, owned by the runtime; NULL: the scene has none. spore_exercise_watch is to be called after each step of
+ * the world, and spore_world_tidy before it, as `spore run` does: then events, metrics and score are the same. */
+SporeExercise *spore_runtime_exercise(SporeRuntime *runtime);
 /* Number of visual meshes. */
 size_t spore_runtime_visual_count(const SporeRuntime *runtime);
 /* Visual mesh i: its body, whose name it bears, and its triangles. */

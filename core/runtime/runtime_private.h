@@ -15,8 +15,9 @@ struct SporeRuntime {
   SporeArena arena; /* all that `scene` points to */
   SporeRuntimeScene scene;
   SporeWorld *world;
-  SporeDevice **devices; /* scene.track.channel_count; NULL: not opened yet */
-  SporeRuntimeMap *maps; /* scene.visual_count x SPORE_LOD_COUNT */
+  SporeExercise *exercise; /* NULL: there is none */
+  SporeDevice **devices;   /* scene.track.channel_count; NULL: not opened yet */
+  SporeRuntimeMap *maps;   /* scene.visual_count x SPORE_LOD_COUNT */
 };
 
 /* Reads the content over an empty scene. False with the error. */

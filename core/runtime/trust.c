@@ -176,6 +176,66 @@ static bool trust_track(const SporeRuntimeScene *scene, SporeError *error) {
   return true;
 }
 
+/* The exercise. */
+
+static bool is_part(uint32_t index, size_t count) { return index == SPORE_NO_PART || index < count; }
+
+static bool has_parameter(const SporeParameterTable *table, const char *name) {
+  return spore_parameter_find(table, name) >= 0;
+}
+
+static bool trust_instruments(const SporeExerciseDescription *exercise, const SporeWorldDescription *world,
+                              SporeError *error) {
+  for (size_t i = 0; i < exercise->instrument_count; i++)
+    if (exercise->instruments[i].bodies[0] == SPORE_NO_BODY ||
+        !is_part(exercise->instruments[i].tool, world->tool_count))
+      return refuse(error, _("an instrument of the exercise lacks its body or tool"));
+  return true;
+}
+
+/* A step without a body needs an instrument, unless it is about a body alone. */
+static bool trust_step(const SporeExerciseDescription *exercise, size_t i, SporeError *error) {
+  const SporeExerciseStep *step = &exercise->steps[i];
+  if (!step->kind || !step->fields.name || !spore_name_is_valid(step->fields.name))
+    return refuse(error, _("a step lacks its name or kind"));
+  if (!is_part(step->instrument, exercise->instrument_count) || !is_part(step->after, exercise->step_count))
+    return refuse(error, _("a step names an instrument or a step that is not there"));
+  bool lacks = step->body == SPORE_NO_BODY && (step->kind->needs_body || step->instrument == SPORE_NO_PART);
+  if (lacks || has_parameter(&step->kind->parameters, "container") != (step->container != SPORE_NO_BODY))
+    return refuse(error, _("a step lacks its body, instrument or container"));
+  return true;
+}
+
+static bool is_fluid(const SporeRuntimeScene *scene, uint32_t body) {
+  const SporeModelType *type = scene->recipes[SPORE_LOD_COUNT * (size_t)body + SPORE_LOD_FINE].type;
+  return type && type->particles;
+}
+
+static bool trust_metric(const SporeRuntimeScene *scene, const SporeExerciseMetric *metric, SporeError *error) {
+  const SporeExerciseDescription *exercise = &scene->exercise;
+  if (!metric->kind || !metric->fields.name || !spore_name_is_valid(metric->fields.name))
+    return refuse(error, _("a metric lacks its name or kind"));
+  if (!is_part(metric->instrument, exercise->instrument_count) || !is_part(metric->view, exercise->view_count))
+    return refuse(error, _("a metric names an instrument or a camera that is not there"));
+  if ((metric->kind->needs_body && metric->body == SPORE_NO_BODY) ||
+      (metric->kind->needs_view && metric->view == SPORE_NO_PART) ||
+      (metric->kind->needs_fluid && !is_fluid(scene, metric->body)))
+    return refuse(error, _("a metric lacks its body, fluid or camera"));
+  return true;
+}
+
+static bool trust_exercise(const SporeRuntimeScene *scene, SporeError *error) {
+  const SporeExerciseDescription *exercise = &scene->exercise;
+  if ((exercise->instrument_count && !exercise->instruments) || (exercise->view_count && !exercise->views) ||
+      (exercise->step_count && !exercise->steps) || (exercise->metric_count && !exercise->metrics))
+    return refuse(error, _("parts of the exercise are missing"));
+  bool sound = trust_instruments(exercise, &scene->world, error);
+  for (size_t i = 0; sound && i < exercise->step_count; i++) sound = trust_step(exercise, i, error);
+  for (size_t i = 0; sound && i < exercise->metric_count; i++)
+    sound = trust_metric(scene, &exercise->metrics[i], error);
+  return sound;
+}
+
 bool spore_runtime_trust(const SporeRuntimeScene *scene, SporeError *error) {
-  return trust_world(scene, error) && trust_track(scene, error);
+  return trust_world(scene, error) && trust_track(scene, error) && trust_exercise(scene, error);
 }

@@ -5,7 +5,8 @@
 #include "core/runtime/runtime.h"
 
 /* Checks what models and world take for granted: meshes, curves and spheres are sound, what has a count is there,
- * models have the geometry of their types, links and their bodies, and the order of recorded input. False with the
+ * models have the geometry of their types, links and their bodies, the order of recorded input, and that the exercise
+ * names what is there. False with the
  * error, whose place is the object. */
 bool spore_runtime_trust(const SporeRuntimeScene *scene, SporeError *error);
 

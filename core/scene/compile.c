@@ -83,8 +83,10 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
   simulation->body_object = g_new0(guint32, MAX(compiler->objects->len, 1));
   for (guint i = 0; i < compiler->objects->len; i++)
     simulation->body_object[i] = spore_object_id(g_ptr_array_index(compiler->objects, i));
+  SporeExerciseDescription exercise;
   if (simulation->world && spore_compiler_open_devices(compiler, simulation) &&
-      spore_compiler_make_exercise(compiler, simulation->world, &simulation->exercise))
+      spore_compiler_describe_exercise(compiler, &exercise) &&
+      spore_compiler_create_exercise(compiler, &exercise, simulation->world, &simulation->exercise))
     return simulation;
   spore_simulation_free(simulation);
   return NULL;

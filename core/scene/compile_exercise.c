@@ -1,4 +1,4 @@
-/* Makes the exercise of a document, for the world that was made of it. */
+/* Describes the exercise of a document, and makes it for the world that was made of that. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -7,7 +7,6 @@
 /* An exercise that is put together. */
 typedef struct Maker {
   SporeCompiler *compiler;
-  const SporeWorld *world;
   GPtrArray *instrument_objects, *view_objects, *step_objects; /* by index in the exercise */
   GArray *instruments, *views, *steps, *metrics;               /* of the parts of its description */
 } Maker;
@@ -98,9 +97,10 @@ static gboolean add_step(Maker *maker, SporeObject *object, const SporeEventKind
   return TRUE;
 }
 
-static gboolean is_fluid(const SporeWorld *world, guint32 body) {
-  const SporeModel *model = spore_world_body_model(world, body);
-  return model && model->type->particles;
+static gboolean is_fluid(const SporeCompiler *compiler, guint32 body) {
+  guint fine = SPORE_LOD_COUNT * body + SPORE_LOD_FINE;
+  const SporeModelType *type = g_array_index(compiler->recipes, SporeModelRecipe, fine).type;
+  return type && type->particles;
 }
 
 static gboolean add_metric(Maker *maker, SporeObject *object, const SporeMetricKind *kind) {
@@ -112,7 +112,7 @@ static gboolean add_metric(Maker *maker, SporeObject *object, const SporeMetricK
     return FALSE;
   if (kind->needs_body && metric.body == SPORE_NO_BODY) return lacks(maker, object, "body");
   if (kind->needs_view && metric.view == SPORE_NO_PART) return lacks(maker, object, "camera");
-  if (kind->needs_fluid && !is_fluid(maker->world, metric.body))
+  if (kind->needs_fluid && !is_fluid(maker->compiler, metric.body))
     return spore_compiler_refuse(maker->compiler, object,
                                  _("body=\"%s\" is no fluid; expected one of particles; choose another body"),
                                  metric.fields.body);
@@ -135,30 +135,33 @@ static gboolean add_parts(Maker *maker, const SporeObject *section) {
   return TRUE;
 }
 
-static SporeExercise *create(const Maker *maker, const SporeObject *section) {
-  SporeEnvironmentFields environment;
-  spore_object_fields(spore_document_section(maker->compiler->document, "environment"), &environment);
-  SporeExerciseDescription description = {.up = spore_vec3_scale(-1, spore_vec3_load(environment.gravity)),
-                                          .instrument_count = maker->instruments->len,
-                                          .view_count = maker->views->len,
-                                          .step_count = maker->steps->len,
-                                          .metric_count = maker->metrics->len,
-                                          .instruments = (const SporeInstrument *)(void *)maker->instruments->data,
-                                          .views = (const SporeView *)(void *)maker->views->data,
-                                          .steps = (const SporeExerciseStep *)(void *)maker->steps->data,
-                                          .metrics = (const SporeExerciseMetric *)(void *)maker->metrics->data};
-  spore_object_fields(section, &description.fields);
-  SporeError fault = SPORE_ERROR_INIT;
-  SporeExercise *exercise = spore_exercise_create(&description, maker->world, &fault);
-  if (!exercise) spore_compiler_say_in_scene(maker->compiler, &fault);
-  return exercise;
+/* What the description borrows lives as long as the compilation. */
+static gconstpointer keep(const Maker *maker, GArray *array) {
+  gpointer data = g_array_free(array, FALSE);
+  if (data) g_ptr_array_add(maker->compiler->kept, data);
+  return data;
 }
 
-gboolean spore_compiler_make_exercise(SporeCompiler *compiler, const SporeWorld *world, SporeExercise **exercise) {
+static void describe(const Maker *maker, const SporeObject *section, SporeExerciseDescription *description) {
+  SporeEnvironmentFields environment;
+  spore_object_fields(spore_document_section(maker->compiler->document, "environment"), &environment);
+  *description = (SporeExerciseDescription){.up = spore_vec3_scale(-1, spore_vec3_load(environment.gravity)),
+                                            .instrument_count = maker->instruments->len,
+                                            .view_count = maker->views->len,
+                                            .step_count = maker->steps->len,
+                                            .metric_count = maker->metrics->len};
+  spore_object_fields(section, &description->fields);
+  description->instruments = keep(maker, maker->instruments);
+  description->views = keep(maker, maker->views);
+  description->steps = keep(maker, maker->steps);
+  description->metrics = keep(maker, maker->metrics);
+}
+
+gboolean spore_compiler_describe_exercise(SporeCompiler *compiler, SporeExerciseDescription *description) {
   const SporeObject *section = spore_document_section(compiler->document, "exercise");
-  *exercise = NULL;
+  *description = (SporeExerciseDescription){.step_count = 0};
   if (spore_object_child_count(section) == 0) return TRUE;
-  Maker maker = {.compiler = compiler, .world = world};
+  Maker maker = {.compiler = compiler};
   maker.instrument_objects = g_ptr_array_new();
   maker.view_objects = g_ptr_array_new();
   maker.step_objects = g_ptr_array_new();
@@ -166,13 +169,20 @@ gboolean spore_compiler_make_exercise(SporeCompiler *compiler, const SporeWorld 
   maker.views = g_array_new(FALSE, TRUE, sizeof(SporeView));
   maker.steps = g_array_new(FALSE, TRUE, sizeof(SporeExerciseStep));
   maker.metrics = g_array_new(FALSE, TRUE, sizeof(SporeExerciseMetric));
-  if (add_tools(&maker) && add_parts(&maker, section)) *exercise = create(&maker, section);
+  gboolean whole = add_tools(&maker) && add_parts(&maker, section);
+  describe(&maker, section, description);
   g_ptr_array_unref(maker.instrument_objects);
   g_ptr_array_unref(maker.view_objects);
   g_ptr_array_unref(maker.step_objects);
-  g_array_unref(maker.instruments);
-  g_array_unref(maker.views);
-  g_array_unref(maker.steps);
-  g_array_unref(maker.metrics);
+  return whole;
+}
+
+gboolean spore_compiler_create_exercise(SporeCompiler *compiler, const SporeExerciseDescription *description,
+                                        const SporeWorld *world, SporeExercise **exercise) {
+  SporeError fault = SPORE_ERROR_INIT;
+  *exercise = NULL;
+  if (description->step_count + description->metric_count == 0) return TRUE;
+  *exercise = spore_exercise_create(description, world, &fault);
+  if (!*exercise) spore_compiler_say_in_scene(compiler, &fault);
   return *exercise != NULL;
 }

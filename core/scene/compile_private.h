@@ -60,8 +60,12 @@ gboolean spore_compiler_add_link(SporeCompiler *compiler, const SporeObject *obj
 gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object);
 gboolean spore_compiler_add_emitter(SporeCompiler *compiler, const SporeObject *object);
 
-/* Makes the exercise of the scene. *exercise: NULL: the scene has none. */
-gboolean spore_compiler_make_exercise(SporeCompiler *compiler, const SporeWorld *world, SporeExercise **exercise);
+/* Describes the exercise of the scene; bodies must be described before. Without steps and metrics there is none. What
+ * it borrows lives as long as the compilation and the document. */
+gboolean spore_compiler_describe_exercise(SporeCompiler *compiler, SporeExerciseDescription *description);
+/* Makes that exercise for the world. *exercise: NULL: there is none. */
+gboolean spore_compiler_create_exercise(SporeCompiler *compiler, const SporeExerciseDescription *description,
+                                        const SporeWorld *world, SporeExercise **exercise);
 /* Merges the recorded input of all active bodies: `input` (NULL: none) first, the scene's own tracks for the other
  * bodies. */
 gboolean spore_compiler_merge_input(SporeCompiler *compiler, SporeTrack *merged, const SporeTrack *input);

@@ -16,26 +16,32 @@ static gboolean add_visuals(SporeCompiler *compiler, GArray *visuals, GPtrArray 
   return TRUE;
 }
 
-/* Making the world refuses what could not run. The descriptions stay as they are. */
-static gboolean can_run(SporeCompiler *compiler) {
+/* Making the world and the exercise refuses what could not run. The descriptions stay as they are. */
+static gboolean can_run(SporeCompiler *compiler, const SporeExerciseDescription *description) {
+  SporeExercise *exercise = NULL;
   SporeWorld *world = spore_compiler_create(compiler, NULL);
-  if (world) spore_world_free(world);
-  else spore_compiler_destroy_models(compiler);
-  return world != NULL;
+  if (!world) spore_compiler_destroy_models(compiler);
+  gboolean can = world && spore_compiler_create_exercise(compiler, description, world, &exercise);
+  spore_exercise_free(exercise);
+  spore_world_free(world);
+  return can;
 }
 
 static gpointer format(SporeCompiler *compiler, const SporeTrack *input, GPtrArray *undrawn, gsize *size) {
   g_autoptr(GArray) visuals = g_array_new(FALSE, TRUE, sizeof(SporeRuntimeVisual));
   SporeTrack track = {0};
+  SporeExerciseDescription exercise = {.step_count = 0};
   gboolean described = spore_compiler_describe(compiler) && add_visuals(compiler, visuals, undrawn) &&
-                       spore_compiler_merge_input(compiler, &track, input);
+                       spore_compiler_merge_input(compiler, &track, input) &&
+                       spore_compiler_describe_exercise(compiler, &exercise);
   if (!described) spore_compiler_destroy_models(compiler);
-  gboolean done = described && can_run(compiler);
+  gboolean done = described && can_run(compiler, &exercise);
   const SporeRuntimeScene scene = {.world = spore_compiler_world(compiler),
                                    .recipes = (const SporeModelRecipe *)(void *)compiler->recipes->data,
                                    .visual_count = visuals->len,
                                    .visuals = (const SporeRuntimeVisual *)(void *)visuals->data,
-                                   .track = track};
+                                   .track = track,
+                                   .exercise = exercise};
   gpointer content = done ? spore_runtime_format(&scene, size) : NULL;
   if (done && !content)
     spore_error_raise(compiler->error, SPORE_ERROR_MEMORY, NULL, "%s",

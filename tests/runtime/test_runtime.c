@@ -1,5 +1,5 @@
 /* Runtime files: a scene that was written to one runs to the same bits, its meshes are where the scene's are, and what
- * is damaged or hostile is refused in words. */
+ * is damaged or hostile is refused in words. So does its exercise: the same events, metrics and score. */
 #include <glib.h>
 #include <math.h>
 #include <string.h>
@@ -23,19 +23,24 @@ typedef struct Content {
   gsize size;
 } Content;
 
-static SporeDocument *load(SporeSchema *schema, const char *scene) {
+/* exercise: takes the place of the scene's end; NULL: the scene as it is. */
+static SporeDocument *load(SporeSchema *schema, const char *scene, const char *exercise) {
   GError *error = NULL;
-  g_autofree char *file = g_strdup_printf("%s/%s.spore", SPORE_SCENES, scene);
-  SporeDocument *document = spore_scene_load(schema, file, &error);
+  g_autofree char *file = g_strdup_printf("%s/%s.spore", SPORE_SCENES, scene), *text = NULL;
+  g_file_get_contents(file, &text, NULL, &error);
+  g_assert_no_error(error);
+  if (exercise) strcpy(strstr(text, "</spore>"), "");
+  g_autofree char *whole = g_strconcat(text, exercise, NULL);
+  SporeDocument *document = spore_scene_parse(schema, file, whole, strlen(whole), &error);
   g_assert_no_error(error);
   return document;
 }
 
-static Content write_scene(const char *scene) {
+static Content write_with(const char *scene, const char *exercise) {
   GError *error = NULL;
   g_autoptr(GPtrArray) undrawn = g_ptr_array_new_with_free_func(g_free);
   SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
-  SporeDocument *document = load(schema, scene);
+  SporeDocument *document = load(schema, scene, exercise);
   Content content = {0};
   content.bytes = spore_document_format_runtime(document, NULL, NULL, undrawn, &content.size, &error);
   g_assert_no_error(error);
@@ -44,11 +49,13 @@ static Content write_scene(const char *scene) {
   return content;
 }
 
+static Content write_scene(const char *scene) { return write_with(scene, NULL); }
+
 /* Of the scene itself after so many steps. */
 static guint64 hash_of_scene(const char *scene, int steps) {
   GError *error = NULL;
   SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
-  SporeDocument *document = load(schema, scene);
+  SporeDocument *document = load(schema, scene, NULL);
   SporePool *pool = spore_pool_create(1);
   SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, NULL, &error);
   g_assert_no_error(error);
@@ -72,6 +79,14 @@ static void step(SporeWorld *world, int steps) {
   for (int i = 0; i < steps; i++) {
     spore_world_step(world);
     spore_world_tidy(world);
+  }
+}
+
+static void play(SporeRuntime *runtime, int steps) {
+  SporeExercise *exercise = spore_runtime_exercise(runtime);
+  for (int i = 0; i < steps; i++) {
+    step(spore_runtime_world(runtime), 1);
+    if (exercise) spore_exercise_watch(exercise, spore_runtime_world(runtime));
   }
 }
 
@@ -170,43 +185,121 @@ static void damage_is_told(void) {
   spore_free(whole.bytes);
 }
 
+/* Parts of every kind of reference: instruments, cameras, bodies, containers, fluids, other steps. */
+static const char parts[] =
+    "<exercise task=\"Stir it.\" order=\"given\" time_limit=\"60\">"
+    "<reached name=\"near\" tool=\"right\" point=\"0.07 0.03 0.08\" radius=\"0.05\" hint=\"Go there.\"/>"
+    "<bagged name=\"in\" body=\"blood\" container=\"peritoneum\" share=\"0.01\"/>"
+    "<touched name=\"late\" body=\"uterus\" tool=\"right\" after=\"in\"/>"
+    "<passed_through name=\"way\" body=\"blood\" point=\"0 1 0\" radius=\"1\"/>"
+    "<path_length name=\"path\" tool=\"right\" good=\"1 mm\" pass=\"2 cm\" source=\"a \\ &quot;b&quot;\"/>"
+    "<time_taken name=\"time\" good=\"1 s\" weight=\"2\"/><peak_force name=\"force\"/><smoothness name=\"smooth\"/>"
+    "<blood_lost name=\"lost\" body=\"blood\"/><out_of_view name=\"unseen\" camera=\"laparoscope\"/>"
+    "<drops name=\"drops\" body=\"blood\"/><collisions name=\"hits\"/></exercise></spore>";
+
+static void same_number(double a, double b) { g_assert_cmpmem(&a, sizeof a, &b, sizeof b); }
+
+static void same_exercise(const SporeExercise *a, const SporeExercise *b) {
+  const SporeExerciseState one = spore_exercise_state(a), two = spore_exercise_state(b);
+  g_assert_cmpuint(one.steps_done, ==, two.steps_done);
+  g_assert_cmpuint(one.steps, ==, two.steps);
+  g_assert_cmpuint(one.metrics, ==, two.metrics);
+  g_assert_cmpint(one.phase, ==, two.phase);
+  same_number(one.time_s, two.time_s);
+  same_number(one.score, two.score);
+  for (size_t i = 0; i < one.steps; i++) {
+    const SporeStepState first = spore_exercise_step_state(a, i), second = spore_exercise_step_state(b, i);
+    g_assert_cmpstr(first.name, ==, second.name);
+    g_assert_cmpstr(first.hint, ==, second.hint);
+    g_assert_cmpint(first.phase, ==, second.phase);
+    same_number(first.done_s, second.done_s);
+  }
+  for (size_t i = 0; i < one.metrics; i++) {
+    const SporeMetricState first = spore_exercise_metric_state(a, i), second = spore_exercise_metric_state(b, i);
+    g_assert_cmpstr(first.name, ==, second.name);
+    g_assert_cmpstr(first.source, ==, second.source);
+    same_number(first.value, second.value);
+    same_number(first.good, second.good);
+    same_number(first.pass, second.pass);
+    g_assert_cmpint(first.verdict, ==, second.verdict);
+  }
+}
+
+static void exercise_comes_along(void) {
+  GError *error = NULL;
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
+  SporeDocument *document = load(schema, "plate3-blood", parts);
+  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, NULL, &error);
+  g_assert_no_error(error);
+  Content content = write_with("plate3-blood", parts);
+  SporeRuntime *runtime = parse(&content, NULL);
+  g_assert_nonnull(runtime);
+  SporeExercise *exercise = spore_runtime_exercise(runtime);
+  for (int i = 0; i < STEPS; i++) {
+    step(simulation->world, 1);
+    spore_exercise_watch(simulation->exercise, simulation->world);
+  }
+  play(runtime, STEPS);
+  same_exercise(simulation->exercise, exercise);
+  g_assert_cmpuint(spore_exercise_state(exercise).steps_done, >=, 1);
+  g_assert_cmpfloat(spore_exercise_metric_state(exercise, 0).value, >, 0);
+  spore_runtime_free(runtime);
+  spore_free(content.bytes);
+  spore_simulation_free(simulation);
+  spore_document_free(document);
+  spore_schema_free(schema);
+  content = write_scene("plate3-blood");
+  runtime = parse(&content, NULL);
+  g_assert_null(spore_runtime_exercise(runtime));
+  spore_runtime_free(runtime);
+  spore_free(content.bytes);
+}
+
 static guint64 next_random(guint64 *state) {
   *state = *state * 6364136223846793005u + 1442695040888963407u;
   return *state >> 33;
 }
 
-/* What an enemy would write: any bytes changed, and the checksum right. */
-static void mutate(Content *content, guint64 *random) {
+/* What an enemy would write: any bytes from there on changed, and the checksum right. */
+static void mutate(Content *content, gsize from, guint64 *random) {
   static const guint64 words[] = {0, 1, G_MAXUINT64, G_MAXUINT32, 0x7ff0000000000000u, 0x8000000000000000u, 1u << 20};
   guint8 *bytes = content->bytes;
   for (guint64 count = 1 + next_random(random) % 3; count > 0; count--) {
-    gsize at = HEAD + next_random(random) % (content->size - HEAD - 8);
+    gsize at = from + next_random(random) % (content->size - from - 8);
     if (next_random(random) % 2) bytes[at] ^= (guint8)(1u << next_random(random) % 8);
     else memcpy(bytes + at, &words[next_random(random) % G_N_ELEMENTS(words)], 8);
   }
   seal(content);
 }
 
-static void hostile_files(gconstpointer scene) {
-  Content whole = write_scene(scene);
+static void refuse_hostile(const char *scene, Content whole, gsize from) {
   Content changed = {g_malloc(whole.size), whole.size};
   guint64 random = 7;
   guint refused = 0;
   for (int round = 0; round < 300; round++) {
     SporeError error = SPORE_ERROR_INIT;
     memcpy(changed.bytes, whole.bytes, whole.size);
-    mutate(&changed, &random);
+    mutate(&changed, from, &random);
     SporeRuntime *runtime = parse(&changed, &error);
-    if (runtime) step(spore_runtime_world(runtime), 2);
+    if (runtime) play(runtime, 2);
     else g_assert_true(*error.message && strcmp(error.place, "F") == 0);
     refused += !runtime;
     spore_runtime_free(runtime);
   }
-  g_test_message("%s: %u of 300 refused", (const char *)scene, refused);
+  g_test_message("%s: %u of 300 refused", scene, refused);
   g_assert_cmpuint(refused, >, 10);
   g_assert_cmpuint(refused, <, 300);
   g_free(changed.bytes);
   spore_free(whole.bytes);
+}
+
+static void hostile_files(gconstpointer scene) { refuse_hostile(scene, write_scene(scene), HEAD); }
+
+/* The exercise is what the file ends with. */
+static void hostile_exercises(void) {
+  Content without = write_scene("plate3-blood");
+  refuse_hostile("an exercise", write_with("plate3-blood", parts), without.size - 64);
+  spore_free(without.bytes);
 }
 
 static Content kept;
@@ -220,7 +313,8 @@ static bool load_kept(GError **error) {
 }
 
 static void memory_runs_short(void) {
-  kept = write_scene("minimal");
+  kept = write_with("minimal", "<exercise><reached name=\"a\" body=\"ball\" hint=\"b\"/><time_taken name=\"c\"/>"
+                               "</exercise></spore>");
   ways_fail_each(load_kept, 60);
   ways_clear();
   spore_free(kept.bytes);
@@ -234,6 +328,8 @@ int main(int argc, char **argv) {
   g_test_add_data_func("/runtime/hostile-minimal", "minimal", hostile_files);
   g_test_add_data_func("/runtime/hostile-suture", "suture", hostile_files);
   g_test_add_data_func("/runtime/hostile-steam", "plate7-steam", hostile_files);
+  g_test_add_func("/runtime/exercise", exercise_comes_along);
+  g_test_add_func("/runtime/hostile-exercises", hostile_exercises);
   g_test_add_func("/runtime/memory", memory_runs_short);
   return g_test_run();
 }

@@ -1,5 +1,6 @@
 /* A scene of the editor in a program of your own: loads a runtime file, leads one of its instruments by a device that
- * this program makes up, steps the world 1 kHz on a thread of its own, and reads the drawn vertices from another.
+ * this program makes up, steps the world 1 kHz on a thread of its own, and reads the drawn vertices from another. Says
+ * the steps of the scene's exercise as they are done, and the score.
  *
  *   spore export scene.spore --format runtime -o scene.run --dt 0.001
  *   ./play scene.run probe
@@ -44,8 +45,20 @@ static const SporeDeviceType circle_type = {.name = "circle", .exchange = exchan
 
 typedef struct Stepper {
   SporeWorld *world;
+  SporeExercise *exercise; /* NULL: the scene has none */
   atomic_bool done;
 } Stepper;
+
+/* Looks at what the last step did; says what was done by it. */
+static void watch(SporeExercise *exercise, const SporeWorld *world) {
+  double before = spore_exercise_state(exercise).time_s;
+  spore_exercise_watch(exercise, world);
+  SporeExerciseState state = spore_exercise_state(exercise);
+  for (size_t i = 0; state.time_s > before && i < state.steps; i++) {
+    SporeStepState step = spore_exercise_step_state(exercise, i);
+    if (step.done_s == state.time_s) printf("%.3f s: %s is done\n", step.done_s, step.name);
+  }
+}
 
 /* One thread steps. It keeps pace with the clock where the scene's step is 1 ms. */
 static void *step_all(void *data) {
@@ -55,6 +68,7 @@ static void *step_all(void *data) {
   for (int i = 0; i < STEPS; i++) {
     spore_world_step(stepper->world);
     spore_world_tidy(stepper->world); /* between steps: makes room that a step may not make */
+    if (stepper->exercise) watch(stepper->exercise, stepper->world);
     due.tv_nsec += 1000000;
     if (due.tv_nsec >= 1000000000) due.tv_nsec -= 1000000000, due.tv_sec++;
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL);
@@ -113,7 +127,7 @@ int main(int argc, char **argv) {
   memcpy(circle.orientation, q + 3, sizeof circle.orientation);
   spore_world_set_device(world, body, &circle.device); /* takes the place of the recorded input */
 
-  Stepper stepper = {.world = world};
+  Stepper stepper = {.world = world, .exercise = spore_runtime_exercise(runtime)};
   pthread_t thread;
   double *vertices = malloc(3 * most_vertices(runtime) * sizeof *vertices), farthest = 0;
   if (!vertices || pthread_create(&thread, NULL, step_all, &stepper) != 0) return 1;
@@ -124,6 +138,7 @@ int main(int argc, char **argv) {
   pthread_join(thread, NULL);
   printf("%.3f s, %zu meshes within %.3f m, pushed by %.3f N at most, state %016llx\n", spore_world_time_s(world),
          spore_runtime_visual_count(runtime), farthest, circle.greatest, (unsigned long long)spore_world_hash(world));
+  if (stepper.exercise) printf("score %.17g of 100\n", spore_exercise_state(stepper.exercise).score);
   free(vertices);
   spore_runtime_free(runtime);
   return 0;
