@@ -5,18 +5,74 @@
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
 #include "core/author/edits.h"
+#include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **set, **hold, *output;
+  char **add, **soft, **set, **hold, *output;
   gboolean probe;
 } Request;
+
+/* What was done, for the report. */
+typedef struct Done {
+  GPtrArray *changed;  /* of char *: paths */
+  SporeSoftWork *soft; /* NULL: nothing was made soft */
+} Done;
 
 static SporeObject *hold(SporeDocument *document, const char *name, GError **error) {
   SporeObject *body = spore_cli_find_body(document, "--hold", name, error);
   return body ? spore_edit_add_pin(document, body, error) : NULL;
+}
+
+/* Notes the path of what was changed, for the report. */
+static void note(GPtrArray *changed, const SporeObject *object) { g_ptr_array_add(changed, spore_object_path(object)); }
+
+/* The bodies that are named; NULL with an error: there is no such body. g_ptr_array_unref. */
+static GPtrArray *find_bodies(SporeDocument *document, char **names, GError **error) {
+  g_autoptr(GPtrArray) bodies = g_ptr_array_new();
+  for (; *names; names++) {
+    SporeObject *body = spore_cli_find_body(document, "--soft", *names, error);
+    if (!body) return NULL;
+    g_ptr_array_add(bodies, body);
+  }
+  return g_steal_pointer(&bodies);
+}
+
+/* Unlike in the editor, an organ that cannot be made soft is an error: it was asked for by name. */
+static gboolean refuse_left_out(const SporeSoftWork *work, GError **error) {
+  for (guint i = 0; i < work->organs->len; i++) {
+    const SporeSoftOrgan *organ = work->organs->pdata[i];
+    if (!organ->refused) continue;
+    g_propagate_error(error, g_error_copy(organ->refused));
+    return FALSE;
+  }
+  return TRUE;
+}
+
+static void report_soft(SporeCli *cli, const SporeSoftWork *work) {
+  spore_cli_open_array(cli, "soft");
+  for (guint i = 0; i < work->organs->len; i++) {
+    const SporeSoftOrgan *organ = work->organs->pdata[i];
+    g_autofree char *text = spore_soft_organ_text(organ);
+    spore_cli_say(cli, "%s\n", text);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "body", organ->name);
+    spore_cli_count(cli, "tetrahedra", (gint64)organ->tetrahedra->tetrahedra.tetrahedron_count);
+    spore_cli_count(cli, "spheres", organ->spheres ? (gint64)organ->spheres->spheres.count : 0);
+    spore_cli_number(cli, "distance", organ->tetrahedra->tetrahedra_report.hausdorff);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
+}
+
+static gboolean make_soft(SporeCli *cli, SporeDocument *document, char **names, Done *done, GError **error) {
+  g_autoptr(GPtrArray) bodies = find_bodies(document, names, error);
+  done->soft = bodies ? spore_soft_work_new(document, bodies, error) : NULL;
+  for (guint i = 0; done->soft && i < bodies->len; i++) note(done->changed, bodies->pdata[i]);
+  return done->soft && spore_soft_work_run(done->soft, spore_cli_progress(cli), error) &&
+         refuse_left_out(done->soft, error) && spore_soft_work_apply(done->soft, document, error);
 }
 
 static gboolean set(SporeDocument *document, const char *setting, GPtrArray *changed, GError **error) {
@@ -25,15 +81,14 @@ static gboolean set(SporeDocument *document, const char *setting, GPtrArray *cha
   return TRUE;
 }
 
-/* Notes the path of what was changed, for the report. */
-static void note(GPtrArray *changed, const SporeObject *object) { g_ptr_array_add(changed, spore_object_path(object)); }
-
-static gboolean apply(SporeDocument *document, const Request *request, GPtrArray *changed, GError **error) {
+static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
+  GPtrArray *changed = done->changed;
   for (char **path = request->add; path && *path; path++) {
     SporeObject *added = spore_edit_add(document, *path, error);
     if (!added) return FALSE;
     note(changed, added);
   }
+  if (request->soft && !make_soft(cli, document, request->soft, done, error)) return FALSE;
   for (char **setting = request->set; setting && *setting; setting++)
     if (!set(document, *setting, changed, error)) return FALSE;
   for (char **name = request->hold; name && *name; name++) {
@@ -60,22 +115,28 @@ static gboolean edit(SporeCli *cli, const char *file, const Request *request, GE
   if (!spore_file_may_be_written(output, TRUE, error)) return FALSE;
   SporeDocument *document = spore_scene_load(cli->schema, file, error);
   g_autoptr(GPtrArray) changed = g_ptr_array_new_with_free_func(g_free);
-  gboolean done = document && apply(document, request, changed, error) && spore_cli_save_scene(document, output, error);
-  if (done) {
+  Done done = {.changed = changed};
+  gboolean saved =
+      document && apply(cli, document, request, &done, error) && spore_cli_save_scene(document, output, error);
+  if (saved) {
     spore_cli_text(cli, "scene", output);
     spore_cli_say(cli, _("%s: written\n"), output);
+    if (done.soft) report_soft(cli, done.soft);
     report_changed(cli, changed);
     spore_cli_open_array(cli, "diagnostics");
     spore_cli_diagnostics(cli, document);
     spore_cli_close_array(cli);
   }
+  g_clear_pointer(&done.soft, spore_soft_work_free);
   if (document) spore_document_free(document);
-  return done;
+  return saved;
 }
 
 int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"scene", N_("file that was written")},
+      {"soft", N_("what was made soft: body, tetrahedra, spheres (0: it had its own), distance as a share of the "
+                  "diagonal")},
       {"changed", N_("paths of what was added and set")},
       {"diagnostics", N_("what there is to mend in it: place, message, remedy")},
       {NULL, NULL}};
@@ -87,6 +148,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Add an object, before anything is set: links/spring:cord, bodies/liver/mechanical/spline_1d (may be "
           "repeated)"),
        "PATH"},
+      {"soft", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.soft,
+       N_("Make an organ soft, before anything is set: tetrahedra, spheres, the tissue that its name says, and a pin "
+          "where no link holds it (may be repeated)"),
+       "BODY"},
       {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &request.set,
        N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
       {"hold", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.hold,
@@ -97,12 +162,13 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE && !request.add && !request.set && !request.hold && !request.probe)
+  if (status == SPORE_EXIT_DONE && !request.add && !request.soft && !request.set && !request.hold && !request.probe)
     status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --add, --set, --hold or --probe; give one of them"));
+        _("spore edit: nothing is asked for; expected --add, --soft, --set, --hold or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
+  g_strfreev(request.soft);
   g_strfreev(request.set);
   g_strfreev(request.hold);
   g_free(request.output);

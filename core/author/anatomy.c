@@ -106,6 +106,8 @@ void spore_anatomy_colour(const char *name, guint number, double colour[3]) {
   }
 }
 
+gboolean spore_anatomy_knows(const char *name) { return word_of(name) != NULL; }
+
 const char *spore_anatomy_material(const char *name) {
   const Word *word = word_of(name);
   return word ? word->material : NULL;

@@ -7,6 +7,8 @@
 /* Red, green and blue as in sRGB, 0 to 1: as atlases paint that organ; of names that say nothing, one of many muted
  * colours, by the number. */
 void spore_anatomy_colour(const char *name, guint number, double colour[3]);
+/* Whether the name says an organ or a tissue. */
+gboolean spore_anatomy_knows(const char *name);
 /* A material of the scene, by name; NULL: the name says none. */
 const char *spore_anatomy_material(const char *name);
 

@@ -231,6 +231,30 @@ def a_scene_is_authored_by_commands():
 
 
 @check
+def organs_are_made_soft_by_one_option():
+    """--soft makes tetrahedra, spheres, tissue by name and a pin, before --set, which has the last word; what it cannot do changes nothing."""
+    file("liver.off", shapes.off(*shapes.sphere(radius=30)))
+    file("right_ovary.off", shapes.off(*shapes.sphere(radius=30, centre=(100, 0, 0))))
+    scene = WORK / "authored" / "soft.spore"
+    spore("import", "liver.off", "right_ovary.off", "--unit", "mm", "-o", scene)
+    before = scene.read_text()
+    refuses("edit", scene, "--soft", "kidney", says=('--soft: there is no body "kidney"',))
+    for wrong in (("--soft", "liver", "--set", "bodies/liver/mechanical/material=stone"), ("--add", "bodies/liver/mechanical/rigid_body", "--soft", "liver")):
+        refuses("edit", scene, *wrong, says=("stone",) if "--set" in wrong else ("rigid_body already",))
+    assert scene.read_text() == before
+    made = report("edit", scene, "--soft", "liver", "--soft", "right_ovary", "--set", "bodies/right_ovary/mechanical/material=uterus")
+    assert made["changed"] == ["bodies/liver", "bodies/right_ovary", "bodies/right_ovary/mechanical/material"], made
+    assert [one["body"] for one in made["soft"]] == ["liver", "right_ovary"]
+    assert all(one["tetrahedra"] > 500 and one["spheres"] == 60 and 0 < one["distance"] < 0.02 for one in made["soft"]), made
+    tree = xml.etree.ElementTree.parse(scene).getroot()
+    assert [body.find("mechanical").get("material") for body in tree.findall("bodies/body")] == ["liver", "uterus"]
+    assert [pin.get("body") for pin in tree.findall("links/pin")] == ["liver", "right_ovary"]
+    assert not report("check", scene)["diagnostics"]
+    assert report("run", scene, "--steps", "20")["dof"] > 600
+    refuses("edit", scene, "--soft", "liver", says=("has the model", "already"))
+
+
+@check
 def authoring_commands_refuse_what_they_cannot_do():
     """No body, an unknown one, options that a scene says itself, a frozen asset, nothing to do: words, and no change."""
     scene = WORK / "authored" / "refused.spore"
