@@ -6,22 +6,34 @@
 #include "app/cli/scene.h"
 
 typedef struct ExportOptions {
-  char *format, *output;
+  char *format, *output, *time, *every;
   SporeSceneOptions scene;
 } ExportOptions;
+
+/* What a format shows of a run. */
+typedef enum ExportMoments {
+  EXPORT_NO_MOMENT,  /* the scene as such: neither --time nor --every */
+  EXPORT_ONE_MOMENT, /* --time */
+  EXPORT_SERIES      /* both */
+} ExportMoments;
 
 /* One format: its name, what it is, and what writes it. */
 typedef struct ExportFormat {
   const char *name;
+  ExportMoments moments;
   const char *doc; /* translatable, for --help */
   gboolean (*write)(SporeExport *export, GError **error);
 } ExportFormat;
 
 static const ExportFormat formats[] = {
-    {"runtime",
+    {"runtime", EXPORT_NO_MOMENT,
      N_("the compiled scene in one file, which libspore and spore-player load without GLib and XML, and run to the "
         "same bits"),
      spore_export_runtime},
+    {"vtk", EXPORT_SERIES,
+     N_("a series over time that ParaView opens, -o F.pvd or a folder: surfaces, tetrahedra with displacement and "
+        "strain, lines, particles, all with velocities"),
+     spore_export_vtk},
 };
 
 static gboolean export_scene(SporeExport *export, const char *scene, const SporeSceneOptions *options,
@@ -36,11 +48,25 @@ static gboolean export_scene(SporeExport *export, const char *scene, const Spore
   return done;
 }
 
+static gboolean check_moments(const ExportOptions *options, const ExportFormat *format, GError **error) {
+  const char *option = options->every ? "--every" : "--time";
+  ExportMoments asked = options->every ? EXPORT_SERIES : options->time ? EXPORT_ONE_MOMENT : EXPORT_NO_MOMENT;
+  if (asked > format->moments)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, option,
+                             _("format %s has no such thing; expected a format that shows moments of a run; leave it "
+                               "out"),
+                             format->name);
+  return !options->every || options->time ||
+         spore_error_raise(error, SPORE_ERROR_INPUT, option,
+                           _("no time to run is given; expected --time S beside it; add that"));
+}
+
 static int run_export(SporeCli *cli, const char *scene, const ExportOptions *options, const ExportFormat *format) {
-  SporeExport export = {.cli = cli, .output = options->output};
+  SporeExport export = {.cli = cli, .output = options->output, .time = options->time, .every = options->every};
   GError *error = NULL;
   spore_export_init(&export);
-  gboolean done = export_scene(&export, scene, &options->scene, format, &error);
+  gboolean done =
+      check_moments(options, format, &error) && export_scene(&export, scene, &options->scene, format, &error);
   if (done) spore_export_report(&export);
   spore_export_clear(&export);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
@@ -83,10 +109,13 @@ static char *describe_formats(void) {
 }
 
 int spore_command_export(SporeCli *cli, int argc, char **argv) {
-  static const SporeReportMember members[] = {{"written", N_("each file: file (as given), bytes")},
-                                              {"lost", N_("sentences: what of the scene the format cannot hold")},
-                                              {"left_out", N_("what the file does not need")},
-                                              {NULL, NULL}};
+  static const SporeReportMember members[] = {
+      {"written", N_("each file: file (as given), bytes")},
+      {"lost", N_("sentences: what of the scene the format cannot hold")},
+      {"left_out", N_("what the file does not need")},
+      {"unsolved", N_("of formats that show moments of a run: steps that were not solved as the scene is "
+                      "written, of the body and cause that are worst")},
+      {NULL, NULL}};
   static const SporeCommandInfo info = {
       "export", "SCENE",         N_("Writes a scene for other programs, and for running it without SPORE."), 1, 1,
       members,  describe_formats};
@@ -94,6 +123,9 @@ int spore_command_export(SporeCli *cli, int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"format", 'f', 0, G_OPTION_ARG_STRING, &options.format, N_("What to write: one of the formats below"), "NAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, N_("File to write"), "F"},
+      {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time that is shown (default 0)"), "S"},
+      {"every", 0, 0, G_OPTION_ARG_STRING, &options.every,
+       N_("Show a series from 0 on: time between two moments, a multiple of the step"), "S"},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
@@ -101,5 +133,7 @@ int spore_command_export(SporeCli *cli, int argc, char **argv) {
   spore_scene_options_clear(&options.scene);
   g_free(options.format);
   g_free(options.output);
+  g_free(options.time);
+  g_free(options.every);
   return status;
 }

@@ -4,6 +4,7 @@
 
 #include "app/cli/cli.h"
 #include "core/haptic/track.h"
+#include "core/scene/drawing.h"
 
 /* One export: what a format is given, and what the format has to tell. */
 typedef struct SporeExport {
@@ -11,6 +12,7 @@ typedef struct SporeExport {
   SporeDocument *document; /* with --set, --dt and --integrator applied */
   const SporeTrack *input; /* of --input; NULL: none was given */
   const char *output;
+  const char *time, *every;   /* as given; NULL: not given */
   GArray *written;            /* of SporeExported */
   GPtrArray *lost, *left_out; /* sentences, g_free */
 } SporeExport;
@@ -34,7 +36,19 @@ void spore_export_lose(SporeExport *export, char *sentence);
 /* The same: what the scene holds and the file does not need. */
 void spore_export_leave_out(SporeExport *export, char *sentence);
 
+/* Moments. */
+
+/* What a format does with the scene at a moment. FALSE with a GError. */
+typedef gboolean (*SporeExportMoment)(gpointer data, const SporeDrawing *drawing, double time_s, GError **error);
+/* Runs the scene to --time (0: not given), and shows it at time 0 and each --every from there on, or where that is not
+ * given at the end alone. Tells how much of the run was not solved. FALSE with a GError; SPORE_ERROR_CANCELLED after
+ * Ctrl-C. */
+gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
+/* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */
+void spore_export_lose_physics(SporeExport *export, gboolean colours);
+
 /* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
 gboolean spore_export_runtime(SporeExport *export, GError **error);
+gboolean spore_export_vtk(SporeExport *export, GError **error);
 
 #endif

@@ -4,6 +4,8 @@
 #include "app/cli/export.h"
 #include "core/io/scene_xml.h"
 
+#define FILES_SAID 4 /* one by one */
+
 gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error) {
   if (!spore_write_file(export->output, content, size, error)) return FALSE;
   spore_export_wrote(export, export->output, size);
@@ -35,6 +37,19 @@ void spore_export_clear(SporeExport *export) {
   g_clear_pointer(&export->document, spore_document_free);
 }
 
+/* A series is many files: people are told of the last one, which names the others. */
+static void say_written(const SporeExport *export) {
+  const SporeExported *all = (const SporeExported *)(gconstpointer) export->written->data;
+  guint count = export->written->len;
+  gsize bytes = 0;
+  for (guint i = 0; i < count; i++) bytes += all[i].bytes;
+  if (count > FILES_SAID) {
+    spore_cli_say(export->cli, _("%s: with %u other files, %zu bytes\n"), all[count - 1].file, count - 1, bytes);
+    return;
+  }
+  for (guint i = 0; i < count; i++) spore_cli_say(export->cli, _("%s: %zu bytes\n"), all[i].file, all[i].bytes);
+}
+
 static void report_written(const SporeExport *export) {
   SporeCli *cli = export->cli;
   spore_cli_open_array(cli, "written");
@@ -44,9 +59,9 @@ static void report_written(const SporeExport *export) {
     spore_cli_text(cli, "file", exported->file);
     spore_cli_count(cli, "bytes", (gint64)exported->bytes);
     spore_cli_close(cli);
-    spore_cli_say(cli, _("%s: %zu bytes\n"), exported->file, exported->bytes);
   }
   spore_cli_close_array(cli);
+  say_written(export);
 }
 
 /* label: translated, before each sentence. */

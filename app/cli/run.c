@@ -1,6 +1,5 @@
 /* spore run: the kernel without a window. */
 #include <glib/gi18n.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "app/cli/cli.h"
@@ -14,7 +13,6 @@
 #define USUAL_STEPS 1000
 #define NOT_GIVEN G_MININT64
 #define PROGRESS_REPORTS 1000 /* a run */
-#define MOST_STEPS 9e15       /* in --time: up to here a double counts one by one */
 
 typedef struct RunOptions {
   char *time;
@@ -110,16 +108,7 @@ static int save_recording(const Recording *recording, const char *file) {
 /* Number of steps that the options ask for. */
 static gboolean count_steps(const RunOptions *options, double dt_s, gint64 *steps, GError **error) {
   *steps = options->steps != NOT_GIVEN ? options->steps : USUAL_STEPS;
-  if (!options->time) return TRUE;
-  double time_s, count;
-  if (!spore_cli_seconds("--time", options->time, &time_s, error)) return FALSE;
-  count = ceil(time_s / dt_s - 1e-9);
-  if (count > MOST_STEPS)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--time",
-                             _("%s s are %.3g steps of %g s; expected at most %g; ask for a shorter time"),
-                             options->time, count, dt_s, MOST_STEPS);
-  *steps = (gint64)count;
-  return TRUE;
+  return !options->time || spore_cli_steps(options->time, dt_s, steps, error);
 }
 
 /* What can be refused before the scene is opened. */

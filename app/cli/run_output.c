@@ -2,15 +2,12 @@
 #include "app/cli/run_output.h"
 
 #include <glib/gi18n.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/watch_place.h"
-
-#define ROUNDING 1e-9 /* of --every as a number of steps */
 
 void spore_output_options_clear(SporeOutputOptions *options) {
   g_free(options->file);
@@ -116,25 +113,6 @@ static GArray *parse_watches(const SporeRun *run, char **watch, GError **error) 
 
 /* Measuring. */
 
-static gboolean parse_every(const char *text, double dt_s, guint64 *stride, GError **error) {
-  double every_s;
-  *stride = 1;
-  if (!text) return TRUE;
-  if (!spore_cli_seconds("--every", text, &every_s, error)) return FALSE;
-  double steps = every_s / dt_s, whole = round(steps);
-  if (whole >= 1 && whole < 9e15 && fabs(steps - whole) <= ROUNDING * whole) {
-    *stride = (guint64)whole;
-    return TRUE;
-  }
-  if (steps < 1)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
-                             _("%s s is less than a step; expected a multiple of the step; the nearest is %.10g s"),
-                             text, dt_s);
-  return spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
-                           _("%s s is no multiple of the step of %.10g s; the nearest are %.10g s and %.10g s"), text,
-                           dt_s, floor(steps) * dt_s, ceil(steps) * dt_s);
-}
-
 gboolean spore_output_open(SporeOutput *output, const SporeOutputOptions *options, const SporeRun *run,
                            GError **error) {
   bool chosen[SPORE_QUANTITY_COUNT] = {false};
@@ -142,7 +120,7 @@ gboolean spore_output_open(SporeOutput *output, const SporeOutputOptions *option
   *output = (SporeOutput){.file = options->file};
   if (!options->file) return TRUE;
   output->dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  if (!parse_every(options->every, output->dt_s, &output->stride, error)) return FALSE;
+  if (!spore_cli_stride(options->every, output->dt_s, &output->stride, error)) return FALSE;
   if (options->quantities && !parse_quantities(options->quantities, chosen, error)) return FALSE;
   g_autoptr(GArray) watches = parse_watches(run, options->watch, error);
   if (!watches) return FALSE;

@@ -2,6 +2,7 @@
 #include "app/cli/scene.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/author/addition.h"
@@ -9,6 +10,9 @@
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
+
+#define ROUNDING 1e-9   /* of a time as a number of steps */
+#define MOST_STEPS 9e15 /* up to here a double counts one by one */
 
 void spore_scene_options_clear(SporeSceneOptions *options) {
   g_strfreev(options->set);
@@ -126,6 +130,37 @@ void spore_run_free(SporeRun *run) {
   spore_track_clear(&run->input);
   g_clear_pointer(&run->document, spore_document_free);
   g_free(run);
+}
+
+gboolean spore_cli_steps(const char *time, double dt_s, gint64 *steps, GError **error) {
+  double time_s;
+  if (!spore_cli_seconds("--time", time, &time_s, error)) return FALSE;
+  double count = ceil(time_s / dt_s - ROUNDING);
+  if (count > MOST_STEPS)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--time",
+                             _("%s s are %.3g steps of %g s; expected at most %g; ask for a shorter time"), time, count,
+                             dt_s, MOST_STEPS);
+  *steps = (gint64)fmax(count, 0);
+  return TRUE;
+}
+
+gboolean spore_cli_stride(const char *every, double dt_s, guint64 *stride, GError **error) {
+  double every_s;
+  *stride = 1;
+  if (!every) return TRUE;
+  if (!spore_cli_seconds("--every", every, &every_s, error)) return FALSE;
+  double steps = every_s / dt_s, whole = round(steps);
+  if (whole >= 1 && whole < MOST_STEPS && fabs(steps - whole) <= ROUNDING * whole) {
+    *stride = (guint64)whole;
+    return TRUE;
+  }
+  if (steps < 1)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
+                             _("%s s is less than a step; expected a multiple of the step; the nearest is %.10g s"),
+                             every, dt_s);
+  return spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
+                           _("%s s is no multiple of the step of %.10g s; the nearest are %.10g s and %.10g s"), every,
+                           dt_s, floor(steps) * dt_s, ceil(steps) * dt_s);
 }
 
 int spore_cli_body_width(const SporeWorld *world) {

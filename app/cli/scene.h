@@ -58,6 +58,11 @@ SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOption
 void spore_run_free(SporeRun *run);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeRun, spore_run_free)
 
+/* Steps that --time asks for, from its text. */
+gboolean spore_cli_steps(const char *time, double dt_s, gint64 *steps, GError **error);
+/* Steps between two moments that --every asks for, from its text; NULL: each step. */
+gboolean spore_cli_stride(const char *every, double dt_s, guint64 *stride, GError **error);
+
 /* Width of the column of body names in a table. */
 int spore_cli_body_width(const SporeWorld *world);
 

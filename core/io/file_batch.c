@@ -13,7 +13,7 @@
 #include "core/scene/beneath.h"
 
 typedef struct Entry {
-  int folder; /* open, of the file's own folder */
+  int folder; /* of the batch's folders: the file's own */
   char *temporary, *name, *place;
   gboolean renamed, exchanged; /* exchanged: the old file now has the temporary name */
 } Entry;
@@ -25,6 +25,7 @@ typedef struct MadeFolder {
 
 struct SporeFileBatch {
   GPtrArray *entries; /* of Entry * */
+  GArray *folders;    /* of int: open, each once: there may be more files than a program may open */
   GArray *made;       /* of MadeFolder */
   gboolean committed;
   SporeFileBatch *next; /* of the open ones */
@@ -52,6 +53,7 @@ gboolean spore_file_batch_is_open(void) { return g_atomic_pointer_get(&open_batc
 SporeFileBatch *spore_file_batch_new(void) {
   SporeFileBatch *batch = g_new0(SporeFileBatch, 1);
   batch->entries = g_ptr_array_new();
+  batch->folders = g_array_new(FALSE, FALSE, sizeof(int));
   batch->made = g_array_new(FALSE, FALSE, sizeof(MadeFolder));
   G_LOCK(open_batches);
   batch->next = open_batches;
@@ -92,11 +94,12 @@ void spore_file_batch_free(SporeFileBatch *batch) {
   G_UNLOCK(open_batches);
   for (guint i = 0; i < batch->entries->len; i++) {
     Entry *entry = g_ptr_array_index(batch->entries, i);
-    close(entry->folder);
     g_free(entry->temporary), g_free(entry->name), g_free(entry->place);
     g_free(entry);
   }
   g_ptr_array_unref(batch->entries);
+  for (guint i = 0; i < batch->folders->len; i++) close(g_array_index(batch->folders, int, i));
+  g_array_unref(batch->folders);
   for (guint i = 0; i < batch->made->len; i++) {
     MadeFolder *folder = &g_array_index(batch->made, MadeFolder, i);
     close(folder->parent);
@@ -122,6 +125,22 @@ static int open_folder(SporeFileBatch *batch, int directory, const char *path) {
     if (fault != EEXIST) return errno = fault, -1;
   }
   return spore_open_beneath(directory, path, O_RDONLY | O_DIRECTORY, 0);
+}
+
+/* The same; the batch keeps it, and opens no folder twice. */
+static int keep_folder(SporeFileBatch *batch, int directory, const char *path) {
+  int opened = open_folder(batch, directory, path);
+  struct stat one, other;
+  for (guint i = 0; opened >= 0 && i < batch->folders->len; i++) {
+    int kept = g_array_index(batch->folders, int, i);
+    if (fstat(opened, &one) != 0 || fstat(kept, &other) != 0 || one.st_dev != other.st_dev ||
+        one.st_ino != other.st_ino)
+      continue;
+    close(opened);
+    return kept;
+  }
+  if (opened >= 0) g_array_append_val(batch->folders, opened);
+  return opened;
 }
 
 /* errno, or 0. */
@@ -153,7 +172,7 @@ static int write_temporary(const Entry *entry, const void *content, gsize size) 
 gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
                               const void *content, gsize size, GError **error) {
   g_autofree char *path = g_path_get_dirname(name);
-  int folder = open_folder(batch, directory, path);
+  int folder = keep_folder(batch, directory, path);
   if (folder < 0) return spore_file_refuse(errno, place, error);
   Entry *entry = g_new0(Entry, 1);
   entry->folder = folder;
@@ -180,14 +199,12 @@ static int rename_entry(Entry *entry) {
 
 gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
   int fault = 0;
-  for (guint i = 0; i < batch->entries->len; i++) {
-    Entry *entry = g_ptr_array_index(batch->entries, i);
-    fault = rename_entry(entry);
-    if (!fault && fsync(entry->folder) != 0) fault = errno;
-    if (!fault) continue;
-    for (guint j = i + 1; j > 0; j--) take_back(g_ptr_array_index(batch->entries, j - 1));
-    return spore_file_refuse(fault, entry->place, error);
-  }
-  batch->committed = TRUE;
-  return TRUE;
+  guint renamed = 0;
+  while (!fault && renamed < batch->entries->len) fault = rename_entry(g_ptr_array_index(batch->entries, renamed++));
+  for (guint i = 0; !fault && i < batch->folders->len; i++)
+    if (fsync(g_array_index(batch->folders, int, i)) != 0) fault = errno;
+  batch->committed = !fault;
+  if (!fault) return TRUE;
+  for (guint i = renamed; i > 0; i--) take_back(g_ptr_array_index(batch->entries, i - 1));
+  return spore_file_refuse(fault, ((Entry *)g_ptr_array_index(batch->entries, renamed - 1))->place, error);
 }

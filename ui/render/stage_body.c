@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/mesh/bvh.h"
+#include "core/scene/drawing.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/colour_scale.h"
 
@@ -347,14 +348,11 @@ static void place_smoke(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_puffs(stage->renderer, body->puffs_handle, body->puffs, count);
 }
 
-/* In a liquid at rest, neighbours are where attraction and repulsion balance: 2^(1/6) of the width of their spheres
- * apart. */
-#define LIQUID_SPACING 1.12
-
 static void place_liquid(SporeStage *stage, SporeStageBody *body) {
   SporeTriangleMesh skin;
   place_centres(body);
-  if (!spore_particle_skin(body->centres.positions, body->shown, 2 * LIQUID_SPACING * body->spheres[3], &skin, NULL))
+  if (!spore_particle_skin(body->centres.positions, body->shown, 2 * SPORE_LIQUID_SPACING * body->spheres[3], &skin,
+                           NULL))
     return;
   body->style.material = SPORE_MATERIAL_LIQUID;
   spore_stage_body_show_surface(stage, body, &skin);
