@@ -26,6 +26,9 @@ typedef struct ExportFormat {
 } ExportFormat;
 
 static const ExportFormat formats[] = {
+    {"bundle", EXPORT_NO_MOMENT,
+     N_("the scene and the files that its run needs in one .sporez file, which spore and the editor open like a scene"),
+     spore_export_bundle},
     {"runtime", EXPORT_NO_MOMENT,
      N_("the compiled scene in one file, which libspore and spore-player load without GLib and XML, and run to the "
         "same bits"),

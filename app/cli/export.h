@@ -48,6 +48,7 @@ gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointe
 void spore_export_lose_physics(SporeExport *export, gboolean colours);
 
 /* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
+gboolean spore_export_bundle(SporeExport *export, GError **error);
 gboolean spore_export_runtime(SporeExport *export, GError **error);
 gboolean spore_export_vtk(SporeExport *export, GError **error);
 

@@ -6,6 +6,8 @@
 
 #include <glib.h>
 
+#define SPORE_LARGEST_SCENE (64u << 20) /* bytes of its text */
+
 typedef enum SporeMarkupKind { SPORE_MARKUP_START, SPORE_MARKUP_END, SPORE_MARKUP_COMMENT } SporeMarkupKind;
 
 typedef struct SporeMarkup {

@@ -7,9 +7,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/io/bundle.h"
 #include "core/io/file_batch.h"
 #include "core/io/scene_format.h"
 #include "core/io/scene_xml.h"
+#include "core/scene/needs.h"
 
 /* The real target of a file name. Symbolic links are followed, so that they stay links. g_free. */
 static char *real_target(const char *file) {
@@ -93,14 +95,6 @@ gboolean spore_write_file(const char *file, const void *content, gsize size, GEr
 }
 
 /* Assets. */
-
-static void collect_files(SporeObject *object, GHashTable *files) {
-  const SporeParameterTable *table = object->type->table;
-  for (size_t i = 0; i < table->count; i++)
-    if (table->parameters[i].type == SPORE_FILE && object->slots[i].set)
-      g_hash_table_add(files, object->slots[i].value.text);
-  for (guint i = 0; i < object->children->len; i++) collect_files(spore_object_child(object, i), files);
-}
 
 static gboolean same_folder(const SporeDocument *document, const char *scene) {
   if (!document->file) return FALSE;
@@ -193,9 +187,12 @@ static void settle(SporeDocument *document, const char *file, GHashTable *files,
 }
 
 gboolean spore_scene_save(SporeDocument *document, const char *file, GError **error) {
+  if (spore_bundle_is_name(file))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, file, "%s",
+                             _("a bundle is not edited; nothing was changed; save the scene under a name that ends in "
+                               ".spore, and make a bundle of it with spore export"));
   if (!check_required(document->root, error)) return FALSE;
-  g_autoptr(GHashTable) files = g_hash_table_new(g_str_hash, g_str_equal);
-  collect_files(document->root, files);
+  g_autoptr(GHashTable) files = spore_document_files(document);
   g_autoptr(GArray) places = g_array_new(FALSE, FALSE, sizeof(SporeObjectPlace));
   gsize size;
   g_autofree char *text = spore_scene_format_places(document, &size, places);

@@ -3,19 +3,14 @@
  * exact place. */
 #include "core/io/scene_xml.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <glib/gi18n.h>
 #include <libxml/parser.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/io/scene_markup.h"
 #include "core/scene/document_private.h"
 
-#define LARGEST_SCENE (64u << 20) /* bytes */
-#define FEED (64u << 10)          /* bytes at a time: the parser's own buffer stays small */
+#define FEED (64u << 10) /* bytes at a time: the parser's own buffer stays small */
 static const SporeMarkupLimits limits = {.elements = 200000, .depth = 16, .attributes = 64};
 
 /* An element that is open. */
@@ -361,11 +356,11 @@ static GArray *prepare(const char *file, const char *text, gsize size, gboolean 
                       _("the file is empty; expected a SPORE scene; choose another"));
     return NULL;
   }
-  if (size > LARGEST_SCENE) {
+  if (size > SPORE_LARGEST_SCENE) {
     spore_error_raise(error, SPORE_ERROR_INPUT, file,
                       _("the scene has over %u MiB; expected less; keep meshes in files of "
                         "their own"),
-                      LARGEST_SCENE >> 20);
+                      SPORE_LARGEST_SCENE >> 20);
     return NULL;
   }
   if (!g_utf8_validate(text, (gssize)size, &end)) {
@@ -409,65 +404,4 @@ SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, co
   spore_document_set_file(reader.document, file);
   spore_document_set_readers(reader.document, &spore_io_readers);
   return reader.document;
-}
-
-/* Files. */
-
-static gboolean read_failed(const char *file, int fault, GError **error) {
-  if (fault == EISDIR)
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, "%s",
-                             _("this is a folder; expected a .spore file; name the file inside it"));
-  if (fault == EINVAL)
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, "%s",
-                             _("this is not a regular file; expected a .spore file; choose another"));
-  if (fault == EFBIG)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, file,
-                             _("the scene has over %u MiB; expected less; keep meshes in "
-                               "files of their own"),
-                             LARGEST_SCENE >> 20);
-  if (fault == ENOENT)
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, "%s",
-                             _("there is no such file; expected a .spore file; correct the name"));
-  return spore_error_raise(error, SPORE_ERROR_FILE, file,
-                           _("cannot be read: %s; expected a .spore file; check its "
-                             "permissions"),
-                           g_strerror(fault));
-}
-
-/* errno, or 0. */
-static int check_scene_file(int descriptor) {
-  struct stat status;
-  if (fstat(descriptor, &status) != 0) return errno;
-  if (S_ISDIR(status.st_mode)) return EISDIR;
-  if (!S_ISREG(status.st_mode)) return EINVAL;
-  return status.st_size > (off_t)LARGEST_SCENE ? EFBIG : 0;
-}
-
-static int read_scene_file(int descriptor, GByteArray *content) {
-  guint8 block[65536];
-  for (;;) {
-    ssize_t got = read(descriptor, block, sizeof block);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return errno;
-    if (got == 0) return 0;
-    if (content->len + (gsize)got > LARGEST_SCENE) return EFBIG;
-    g_byte_array_append(content, block, (guint)got);
-  }
-}
-
-SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GError **error) {
-  int descriptor = open(file, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (descriptor < 0) {
-    read_failed(file, errno, error);
-    return NULL;
-  }
-  g_autoptr(GByteArray) content = g_byte_array_new();
-  int fault = check_scene_file(descriptor);
-  if (!fault) fault = read_scene_file(descriptor, content);
-  close(descriptor);
-  if (fault) {
-    read_failed(file, fault, error);
-    return NULL;
-  }
-  return spore_scene_parse(schema, file, (const char *)content->data, content->len, error);
 }

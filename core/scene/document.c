@@ -78,6 +78,7 @@ void spore_document_free(SporeDocument *document) {
   spore_assets_free(document);
   spore_document_forget_names(document);
   g_free(document->file);
+  g_free(document->bundle);
   g_free(document);
 }
 
@@ -88,6 +89,15 @@ void spore_document_set_file(SporeDocument *document, const char *file) {
   char *copy = g_strdup(file);
   g_free(document->file);
   document->file = copy;
+  g_clear_pointer(&document->bundle, g_free);
+}
+
+const char *spore_document_bundle(const SporeDocument *document) { return document->bundle; }
+
+void spore_document_set_bundle(SporeDocument *document, const char *bundle) {
+  char *copy = g_strdup(bundle);
+  spore_document_set_file(document, NULL);
+  document->bundle = copy;
 }
 
 SporeObject *spore_document_load_object(SporeDocument *document, SporeObject *parent, const SporeObjectType *type,

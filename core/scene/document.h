@@ -112,6 +112,8 @@ void spore_document_unlisten(SporeDocument *document, guint id);
  * it can be named. Content that no file holds yet (imported meshes, generated spheres) waits in the document as a blob,
  * under the name of its future file. Saving writes the blobs that some object names. */
 const char *spore_document_file(const SporeDocument *document); /* NULL: never saved */
+/* The bundle (.sporez) that the document came from, whose files wait as blobs; NULL: none, or it was saved since. */
+const char *spore_document_bundle(const SporeDocument *document);
 void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *content);
 /* Content of a file that an asset names: the blob, or else the file in the folder (regular, inside the folder, at most
  * 1 GiB). */

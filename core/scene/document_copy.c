@@ -40,7 +40,8 @@ static void give_ids(SporeDocument *copy, const GArray *twins, guint32 last_id) 
 SporeDocument *spore_document_copy(const SporeDocument *document) {
   SporeDocument *copy = spore_document_new(document->schema);
   g_autoptr(GArray) twins = g_array_new(FALSE, FALSE, sizeof(Twin));
-  spore_document_set_file(copy, document->file);
+  if (document->bundle) spore_document_set_bundle(copy, document->bundle);
+  else spore_document_set_file(copy, document->file);
   copy->declaration = document->declaration;
   copy->root->line = document->root->line, copy->root->column = document->root->column;
   copy_object(document->root, copy->root, twins);

@@ -86,6 +86,7 @@ struct SporeDocument {
   guint last_listener;
 
   char *file;
+  char *bundle;      /* that the document came from; NULL: none, or it has a file */
   GHashTable *blobs; /* file name -> SporeBlob * */
   guint64 last_blob;
   SporeAssetReaders readers;
@@ -98,7 +99,10 @@ SporeObject *spore_document_load_object(SporeDocument *document, SporeObject *pa
                                         int line, int column);
 /* Takes over value and source. */
 void spore_document_load_value(SporeObject *object, guint property, SporeValue *value, char *source);
+/* The document has a folder then, and comes from no bundle. */
 void spore_document_set_file(SporeDocument *document, const char *file);
+/* The document came out of that bundle: it has neither file nor folder. */
+void spore_document_set_bundle(SporeDocument *document, const char *bundle);
 void spore_document_mark_saved(SporeDocument *document);
 void spore_comments_add(GArray **comments, const char *text, guint lines_before);
 

@@ -119,7 +119,8 @@ char *spore_object_path(const SporeObject *object) {
 }
 
 char *spore_object_where(const SporeObject *object) {
-  const char *file = object->document->file;
+  const SporeDocument *document = object->document;
+  const char *file = document->file ? document->file : document->bundle;
   if (!file || object->line == 0) return spore_object_path(object);
   return g_strdup_printf("%s:%d:%d", file, object->line, object->column);
 }

@@ -44,3 +44,17 @@ GArray *spore_document_asset_needs(SporeDocument *document) {
   }
   return needs;
 }
+
+static void collect_files(SporeObject *object, GHashTable *files) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (guint i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_FILE && spore_object_is_set(object, i))
+      g_hash_table_add(files, spore_object_value(object, i)->text);
+  for (guint i = 0; i < spore_object_child_count(object); i++) collect_files(spore_object_child(object, i), files);
+}
+
+GHashTable *spore_document_files(const SporeDocument *document) {
+  GHashTable *files = g_hash_table_new(g_str_hash, g_str_equal);
+  collect_files(spore_document_root(document), files);
+  return files;
+}

@@ -24,4 +24,8 @@ typedef struct SporeAssetNeed {
 /* One SporeAssetNeed an asset, in the document's order; g_array_unref. */
 GArray *spore_document_asset_needs(SporeDocument *document);
 
+/* The names of all files that the document's objects name: a set of texts, borrowed until the next change;
+ * g_hash_table_unref. */
+GHashTable *spore_document_files(const SporeDocument *document);
+
 #endif
