@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/instrument_edits.h"
 #include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
 
@@ -105,7 +106,8 @@ static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpoint
 static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
-  SporeObject *probe = spore_edit_add_probe(document_of(self), &error);
+  SporeObject *probe = spore_edit_add_instrument(document_of(self), spore_instrument_find("probe"), NULL,
+                                                 (SporeInstrumentPlaces){0}, &error);
   if (!probe) {
     spore_window_failed(self, error);
     return;

@@ -5,13 +5,15 @@
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
 #include "core/author/edits.h"
+#include "core/author/instrument_edits.h"
 #include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
+#include "core/scene/watch_place.h"
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, *output;
+  char **add, **soft, **set, **hold, **instrument, *output;
   gboolean probe;
 } Request;
 
@@ -81,6 +83,38 @@ static gboolean set(SporeDocument *document, const char *setting, GPtrArray *cha
   return TRUE;
 }
 
+/* The instrument of that name; NULL with an error that lists the library. */
+static const SporeInstrumentKind *find_instrument(const char *text, const char *name, GError **error) {
+  const SporeInstrumentKind *found = spore_instrument_find(name);
+  g_autoptr(GString) names = g_string_new(NULL);
+  if (found) return found;
+  for (const SporeInstrumentKind *one = spore_instruments; one->name; one++)
+    g_string_append_printf(names, names->len ? ", %s" : "%s", one->name);
+  spore_error_raise(error, SPORE_ERROR_INPUT, text, _("there is no instrument \"%s\"; expected one of: %s"), name,
+                    names->str);
+  return NULL;
+}
+
+/* KIND[:NAME][@ENTRY[@TARGET]] */
+static SporeObject *add_instrument(SporeDocument *document, const char *text, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, "@", -1);
+  guint count = g_strv_length(parts);
+  SporeVec3 entry, target;
+  char *name = count ? strchr(parts[0], ':') : NULL;
+  if (name) *name++ = '\0';
+  const SporeInstrumentKind *instrument = count ? find_instrument(text, parts[0], error) : NULL;
+  if (count && !instrument) return NULL;
+  if (!count || count > 3 || (count > 1 && !spore_place_parse(parts[1], &entry)) ||
+      (count > 2 && !spore_place_parse(parts[2], &target))) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, text,
+                      _("this is no instrument and its places; expected KIND@X,Y,Z@X,Y,Z in metres, where it enters "
+                        "and what it points at, such as grasper@0.1,0.2,0.1@0,0.02,0"));
+    return NULL;
+  }
+  const SporeInstrumentPlaces places = {count > 1 ? &entry : NULL, count > 2 ? &target : NULL};
+  return spore_edit_add_instrument(document, instrument, name && *name ? name : NULL, places, error);
+}
+
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->add; path && *path; path++) {
@@ -96,7 +130,12 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     if (!pin) return FALSE;
     note(changed, pin);
   }
-  SporeObject *probe = request->probe ? spore_edit_add_probe(document, error) : NULL;
+  for (char **text = request->instrument; text && *text; text++) {
+    SporeObject *added = add_instrument(document, *text, error);
+    if (!added) return FALSE;
+    note(changed, added);
+  }
+  SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
   return probe || !request->probe;
 }
@@ -156,21 +195,29 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
       {"hold", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.hold,
        N_("Pin a body where it lies lowest and farthest behind, so that it does not fall (may be repeated)"), "BODY"},
+      {"instrument", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.instrument,
+       N_("Add an instrument that the mouse moves: KIND, KIND:NAME, KIND@X,Y,Z (where it enters, m) or "
+          "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
+          "endoscope, endoscope_30 (may be repeated)"),
+       "KIND@ENTRY@TARGET"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE && !request.add && !request.soft && !request.set && !request.hold && !request.probe)
-    status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --add, --soft, --set, --hold or --probe; give one of them"));
+  gboolean any = request.add || request.soft || request.set || request.hold || request.instrument || request.probe;
+  if (status == SPORE_EXIT_DONE && !any)
+    status =
+        spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --hold, --instrument or "
+                          "--probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
   g_strfreev(request.soft);
   g_strfreev(request.set);
   g_strfreev(request.hold);
+  g_strfreev(request.instrument);
   g_free(request.output);
   return status;
 }

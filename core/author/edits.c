@@ -1,4 +1,4 @@
-/* Edits of a body in one undo step each: its model, presets, a probe, a pin, a property by its path. */
+/* Edits of a body in one undo step each: its model, presets, a pin, a property by its path. */
 #include "core/author/edits.h"
 
 #include <glib/gi18n.h>
@@ -12,12 +12,6 @@
 #include "core/scene/generated.h"
 #include "core/sim/world.h"
 
-/* A probe of 10 mm with a shaft behind it. */
-#define PROBE_TIP_RADIUS_M 0.005
-#define PROBE_SHAFT_RADIUS_M 0.0035
-#define PROBE_SHAFT_SPHERES 12
-#define PROBE_SHAFT_SPACING_M 0.005
-#define PROBE_CLEARANCE_M 0.02
 /* Radius of a new pin, as a part of the organ's diagonal. */
 #define PIN_PART 0.3
 
@@ -145,16 +139,7 @@ gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const
   return spore_edit_finish(document, use_preset(document, model, name, error));
 }
 
-/* Probe. */
-
-SporeObject *spore_edit_find_probe(SporeDocument *document) {
-  SporeObject *bodies = spore_document_section(document, "bodies");
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    SporeObject *body = spore_object_child(bodies, i);
-    if (spore_object_number(body, "role") == SPORE_ACTIVE) return body;
-  }
-  return NULL;
-}
+/* Pin. */
 
 static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
   const double x[3] = {p.x, p.y, p.z};
@@ -163,74 +148,6 @@ static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
     upper[i] = fmax(upper[i], x[i] + r);
   }
 }
-
-/* The highest point of all drawn meshes. */
-static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
-  SporeObject *bodies = spore_document_section(document, "bodies");
-  gboolean found = FALSE;
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    SporeObject *body = spore_object_child(bodies, i);
-    SporeObject *asset = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
-    const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, NULL) : NULL;
-    for (gsize v = 0; mesh && v < mesh->vertex_count; v++) {
-      SporeVec3 p = spore_pose_apply(spore_body_pose(body), spore_vec3_load(mesh->vertices + 3 * v));
-      if (!found || p.y > top->y) *top = p;
-      found = TRUE;
-    }
-  }
-  return found;
-}
-
-/* Spheres of a probe: its tip at the origin, its shaft upward. */
-static GBytes *probe_spheres(void) {
-  GString *text = g_string_new("# x y z r, m: tip, then the shaft\n");
-  char y[G_ASCII_DTOSTR_BUF_SIZE], r[G_ASCII_DTOSTR_BUF_SIZE];
-  for (int i = 0; i <= PROBE_SHAFT_SPHERES; i++) {
-    g_ascii_formatd(y, sizeof y, "%.6g", i * PROBE_SHAFT_SPACING_M);
-    g_ascii_formatd(r, sizeof r, "%.6g", i == 0 ? PROBE_TIP_RADIUS_M : PROBE_SHAFT_RADIUS_M);
-    g_string_append_printf(text, "0 %s 0 %s\n", y, r);
-  }
-  return g_string_free_to_bytes(text);
-}
-
-static SporeObject *insert_probe(SporeDocument *document, SporeVec3 position, GError **error) {
-  g_autoptr(GBytes) content = probe_spheres();
-  spore_document_put_blob(document, "probe.spheres", content);
-  SporeObject *spheres = spore_document_insert(document, spore_document_section(document, "assets"), "spheres",
-                                               "probe_spheres", G_MAXUINT, error);
-  if (!spheres || !spore_document_set_text(document, spheres, "file", "probe.spheres", error)) return NULL;
-  SporeObject *body =
-      spore_document_insert(document, spore_document_section(document, "bodies"), "body", "probe", G_MAXUINT, error);
-  if (!body || !spore_document_set_text(document, body, "role", "active", error) ||
-      !spore_edit_set_vector(document, body, "position", position, error))
-    return NULL;
-  SporeObject *collision = spore_edit_child_or_new(document, body, "collision", error);
-  if (!collision || !spore_document_set_text(document, collision, "spheres", spore_object_name(spheres), error))
-    return NULL;
-  return body;
-}
-
-static gboolean insert_probe_tool(SporeDocument *document, SporeObject *body, GError **error) {
-  SporeObject *devices = spore_document_section(document, "devices");
-  SporeObject *mouse = spore_object_child_of(devices, "mouse");
-  if (!mouse) mouse = spore_document_insert(document, devices, "mouse", "mouse", G_MAXUINT, error);
-  if (!mouse) return FALSE;
-  SporeObject *tool =
-      spore_document_insert(document, spore_document_section(document, "tools"), "probe", "probe", G_MAXUINT, error);
-  return tool && spore_document_set_text(document, tool, "body", spore_object_name(body), error) &&
-         spore_document_set_text(document, tool, "device", spore_object_name(mouse), error);
-}
-
-SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
-  SporeVec3 position = {0, 0, 0};
-  if (find_top(document, &position)) position.y += PROBE_CLEARANCE_M;
-  spore_document_begin(document, _("Add probe"));
-  SporeObject *body = insert_probe(document, position, error);
-  gboolean done = body && insert_probe_tool(document, body, error);
-  return spore_edit_finish(document, done) ? body : NULL;
-}
-
-/* Pin. */
 
 /* The vertex that lies farthest behind and below (organs hang on the body wall there), and the size of the mesh. */
 static SporeVec3 hold_point(const double *vertices, gsize count, SporePose pose, double *extent) {

@@ -23,11 +23,6 @@ gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body,
 /* Sets the parameters of the body's model to those of one of its presets. */
 gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error);
 
-/* Adds a probe that the mouse moves, just above the highest point of the scene. Returns its body. */
-SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error);
-/* First active body, or NULL. */
-SporeObject *spore_edit_find_probe(SporeDocument *document);
-
 /* Pins the organ at its lowest and rearmost point, so that it does not fall. Returns the pin. */
 SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error);
 

@@ -159,7 +159,7 @@ static gboolean is_effect(const Start *start, const SporeObject *body) {
 static gboolean is_loose(const Start *start, guint body) {
   const SporeObject *object = start->bodies->pdata[body];
   return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) && !is_effect(start, object) &&
-         !spore_check_is_used(start->check, object, SPORE_HOLDING_LINKS);
+         !spore_check_is_used(start->check, object, SPORE_HOLDING);
 }
 
 /* Whether what falls on the body may come to lie there. */

@@ -6,8 +6,8 @@
 #include "core/scene/compile.h"
 #include "core/scene/length_unit.h"
 
-/* Elements of the links that can hold a body where it is. */
-#define SPORE_HOLDING_LINKS "pin|spring|ball|hinge|weld|seam|slide"
+/* Elements that can hold a body where it is: links, and a needle its thread. */
+#define SPORE_HOLDING "pin|spring|ball|hinge|weld|seam|slide|needle"
 
 typedef struct SporeCheck {
   SporeDocument *document;

@@ -85,7 +85,7 @@ static void check_static(SporeCheck *check, const SporeObject *body) {
         check, SPORE_WARNING, mechanical, _("remove substeps, or choose another integrator"),
         _("substeps of \"%s\" gain nothing: static finds the balance of forces, in which time does not count"),
         spore_object_name(body));
-  if (!spore_check_is_used(check, body, SPORE_HOLDING_LINKS))
+  if (!spore_check_is_used(check, body, SPORE_HOLDING))
     spore_check_say(check, SPORE_WARNING, mechanical,
                     _("pin it, tie it with a spring, or choose an integrator that moves it"),
                     _("\"%s\" is integrated by static, but neither pin nor spring holds it: it finds no balance but "

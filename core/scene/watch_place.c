@@ -8,7 +8,7 @@
 #include "core/base/number.h"
 #include "core/scene/body_shape.h"
 
-static gboolean read_place(const char *text, SporeVec3 *at) {
+gboolean spore_place_parse(const char *text, SporeVec3 *at) {
   double numbers[3];
   for (int k = 0; k < 3; k++) {
     size_t length = spore_number_read(text, strlen(text), &numbers[k]);
@@ -60,7 +60,7 @@ static gboolean check_place(const SporeSimulation *simulation, SporeDocument *do
 gboolean spore_watch_place_parse(const SporeSimulation *simulation, SporeDocument *document, const char *text,
                                  guint32 *body, SporeVec3 *at, GError **error) {
   const char *sign = strrchr(text, '@');
-  if (!sign || sign == text || !read_place(sign + 1, at))
+  if (!sign || sign == text || !spore_place_parse(sign + 1, at))
     return spore_error_raise(error, SPORE_ERROR_INPUT, text,
                              _("this is no point of a body; expected BODY@X,Y,Z in metres, such as "
                                "liver@0.01,0,0.02"));

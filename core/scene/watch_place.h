@@ -4,6 +4,8 @@
 
 #include "core/scene/compile.h"
 
+/* Reads X,Y,Z: finite numbers and nothing else. FALSE: it is not of that form. */
+gboolean spore_place_parse(const char *text, SporeVec3 *at);
 /* Reads BODY@X,Y,Z: the body's name, and a place in the scene at time 0, m, at most one mean edge outside the body. To
  * be called before the first step of the simulation. FALSE with a GError, whose place is the text: it is not of that
  * form, the scene has no such body, or the body does not carry such a place; then its nearest point is said. */

@@ -151,8 +151,11 @@ def jaws(kind, *bodies, left='jaw_a="left"', **rest):
                       (' tip="1.05 0 0"' if kind == "scissors" else ""), **rest)
 
 
+THREAD = body("b", '<mechanical geometry="line"><spline_1d/></mechanical>', position="1.02 0 0")
+
+
 def needle(*bodies, thread="", **rest):
-    return instrument("needle", *bodies, more=f'tip="1 0 0" middle="1.01 0 0" swage="1.02 0 0" {thread}', **rest)
+    return instrument("needle", *bodies, assets=ASSETS + SHEET + CELLS + LINE, more=f'tip="1 0 0" middle="1.01 0 0" swage="1.02 0 0" {thread}', **rest)
 
 
 def hung(stiffness, **solver):
@@ -282,8 +285,7 @@ CHECK = [
      ["make what is to be sewn a mass_spring_net, a deformable_surface or neo_hookean_tetrahedra"],
      needle(net('<mechanical geometry="cells"><linear_tetrahedra/></mechanical>')), needle(net(SOFT))),
     ("\"%s\" draws no thread: what it has pierced comes off behind it", ["name a body along a curve that begins at its swage"],
-     needle(net()), needle(net(), body("b", '<mechanical geometry="line"><spline_1d/></mechanical>', position="1.02 0 0"),
-                           thread='thread="b"', assets=ASSETS + SHEET + LINE)),
+     needle(net()), needle(net(), THREAD, thread='thread="b"')),
     ("the spheres of \"%s\" keep \"%s\" from what it is to pierce: its tip needs none to feel it",
      ["take the spheres away, or put both bodies in one group"],
      needle(net(NET, BALL)), needle(net(NET, '<collision spheres="ball" group="1"/>'), spheres='<collision spheres="ball" group="1"/>')),
@@ -364,6 +366,8 @@ CHECK = [
     ("\"%s\" is held by nothing, and nothing that could carry it lies under it: it falls", [],
      scene(stone(position="0 0.1 0"), body("low", STONE, BALL)),
      scene(stone(position="0 0.1 0"), body("low", STONE, BALL), links='<ball name="l" body_a="low"/>')),
+    ("\"%s\" is held by nothing, and nothing that could carry it lies under it: it falls", [],
+     needle(THREAD), needle(THREAD, thread='thread="b"')),
     ("\"%s\" is held by nothing, and nothing that could carry it lies under it: it falls", [],
      scene(stone(STONE, '<collision spheres="ball" group="1"/>'), floor('<collision spheres="ball" group="1"/>')),
      scene(stone(), environment='gravity="0 0 0"')),

@@ -1360,6 +1360,98 @@ def blood_comes_and_is_sucked_away():
     refuses("run", file("flow/much.spore", scene.read_text().replace('"30"', '"3000"')), says=["much.spore:9:", "reserve"])
 
 
+def quaternion(rotation):
+    angle = math.sqrt(sum(c * c for c in rotation))
+    return [math.cos(angle / 2)] + [c * math.sin(angle / 2) / angle if angle else 0 for c in rotation]
+
+
+def led(scene, name, path):
+    """A track that leads an instrument along (time, way from its start, button), without turning it; written beside the scene."""
+    body = xml.etree.ElementTree.parse(scene).getroot().find(f"bodies/body[@name='{name}']")
+    start, rotation = ([float(c) for c in body.get(key).split()] for key in ("position", "rotation"))
+    turn = " ".join("%.9g" % c for c in quaternion(rotation))
+    rows = "".join(f"{at} {' '.join('%.9g' % (a + b) for a, b in zip(start, way))} {turn} 0 {button}\n" for at, way, button in path)
+    return file(scene.with_suffix(".track"), f"spore-track 1\ndevice {name}\n{rows}")
+
+
+def slim_bar():
+    """A soft bar, 50 x 8 x 8 mm, that is held at both ends."""
+    file("library/bar.mesh", shapes.bar(along=10, across=2, length=0.05, width=0.008))
+    file("library/bar.spheres", "".join(f"{0.002 + 0.004 * i} {y} {z} 0.002\n" for i in range(12) for y in (0.002, 0.006) for z in (0.002, 0.006)))
+    pins = "".join(f'<pin name="end_{x}" body="bar" point="{x} 0.004 0.004" radius="0.006"/>' for x in (0, 0.05))
+    return file("library/bar.spore", '<spore version="1.0"><solver time_step="0.002"/><assets><tetrahedra name="cells" file="bar.mesh"/>'
+                '<spheres name="felt" file="bar.spheres"/></assets><bodies><body name="bar"><mechanical geometry="cells">'
+                '<neo_hookean_tetrahedra young_modulus="20000" stiffness_damping="0.01"/></mechanical>'
+                f'<collision spheres="felt"/></body></bodies><links>{pins}</links></spore>\n')
+
+
+@check
+def instruments_of_the_library_work():
+    """Each instrument, put in above a soft bar and led down on it, does with its button down what it is for, and does not without; a bar that it is not led to is left alone."""
+    bar = slim_bar()
+    for kind, way, member in (("grasper", 0.020, "held"), ("clamp", 0.020, "held"), ("scissors", 0.022, "cut"), ("bipolar", 0.014, "coagulated")):
+        scene = bar.with_name(f"{kind}.spore")
+        assert report("edit", bar, "--instrument", f"{kind}@0.025,0.12,0.004@0.025,0.008,0.004", "-o", scene)["changed"] == [f"bodies/{kind}_1"]
+        assert not report("check", scene)["diagnostics"], kind
+        for depth, button in ((way, 1), (way, 0), (-0.02, 1)):
+            track = led(scene, f"{kind}_1", [(0, (0, 0, 0), 0), (0.2, (0, -depth, 0), 0), (0.4, (0, -depth, 0), button), (0.6, (0, -depth, 0), button)])
+            done = report("run", scene, "--input", track, "--time", 0.6)
+            assert (done["tools"][0][member] > 0) == (button == 1 and depth > 0), (kind, depth, button, done["tools"])
+            assert not done["monitor"]["unsolved"], done["monitor"]
+
+
+@check
+def a_grasper_lifts_and_lets_go():
+    """A grasper of the library that lifts the bar is told its weight; opened, it lets go, and a clamp does not until the second button."""
+    bar = slim_bar()
+    down, up = (0, -0.02, 0), (0, -0.012, 0)
+    for kind, held in (("grasper", False), ("clamp", True)):
+        scene = bar.with_name(f"{kind}.spore")
+        report("edit", bar, "--instrument", f"{kind}:tool@0.025,0.12,0.004@0.025,0.008,0.004", "-o", scene)
+        path = [(0, (0, 0, 0), 0), (0.2, down, 0), (0.3, down, 1), (0.4, down, 1), (0.6, up, 1), (0.7, up, 1)]
+        lifted = report("run", scene, "--input", led(scene, "tool", path), "--time", 0.7, "--output", "library/lifted.csv")
+        rows = [line.split(",") for line in (WORK / "library" / "lifted.csv").read_text().splitlines() if not line.startswith("#")]
+        force = next(i for i, name in enumerate(rows[0]) if name.startswith("device") and name.split()[0].endswith("y"))
+        assert lifted["tools"][0]["held"] > 0 and float(rows[-1][force]) < -0.05, (rows[0][force], rows[-1][force])
+        path += [(0.71, up, 0), (0.9, up, 0)]
+        assert (report("run", scene, "--input", led(scene, "tool", path), "--time", 0.9)["tools"][0]["held"] > 0) == held
+        path += [(0.91, up, 2), (1.1, up, 2)]
+        assert report("run", scene, "--input", led(scene, "tool", path), "--time", 1.1)["tools"][0]["held"] == 0
+
+
+@check
+def a_needle_and_a_suction_tube_of_the_library_work():
+    """A needle led into the bar pierces it and stays in it; a suction tube takes the particles that it is led to, with its button down alone."""
+    bar = slim_bar()
+    sewn = bar.with_name("needle.spore")
+    report("edit", bar, "--instrument", "needle@0.025,0.12,0.004@0.025,0.008,0.004", "-o", sewn)
+    assert not report("check", sewn)["diagnostics"]
+    for depth in (0.02, 0):
+        done = report("run", sewn, "--input", led(sewn, "needle_1", [(0, (0, 0, 0), 0), (0.3, (0, -depth, 0), 0)]), "--time", 0.4)
+        assert (done["tools"][0]["pierced"], done["tools"][0]["stitches"]) == ((1, 1) if depth else (0, 0)), done["tools"]
+        assert not done["monitor"]["unsolved"], done["monitor"]
+    file("library/drop.off", shapes.off(*shapes.sphere(radius=0.005)))
+    drop = file("library/drop.spore", '<spore version="1.0"><environment gravity="0 0 0"/><solver time_step="0.001"/><assets>'
+                '<mesh name="drop" file="drop.off"/></assets><bodies><body name="blood"><mechanical geometry="drop">'
+                '<lennard_jones particles="100" drag="5"/></mechanical></body></bodies></spore>\n')
+    report("edit", drop, "--instrument", "suction@0,0.1,0.02@0,0,0")
+    for depth, button in ((0.01, 1), (0.01, 0), (0, 1)):
+        aim = [-depth * c for c in (0, 0.1 / math.hypot(0.1, 0.02), 0.02 / math.hypot(0.1, 0.02))]
+        track = led(drop, "suction_1", [(0, (0, 0, 0), 0), (0.1, aim, 0), (0.2, aim, button), (0.4, aim, button)])
+        taken = report("run", drop, "--input", track, "--time", 0.4)["tools"][0]["taken"]
+        assert (taken > 5) == (depth > 0 and button == 1), (depth, button, taken)
+
+
+@check
+def an_instrument_is_refused_with_a_remedy():
+    """What is no instrument of the library, no place, or too near to what it points at."""
+    bar = slim_bar()
+    refuses("edit", bar, "--instrument", "graspr@0,0.1,0", says=["there is no instrument \"graspr\"", "grasper"])
+    refuses("edit", bar, "--instrument", "grasper@0,0.1", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])
+    refuses("edit", bar, "--instrument", "grasper@0,0.1,0@0,0.1,0@0,0,0", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])
+    refuses("edit", bar, "--instrument", "grasper@0,0.02,0@0,0,0", says=["choose places that are farther apart"])
+
+
 @check
 def a_fluid_lands_on_a_floor():
     """A fluid whose collision unit names no spheres collides with its own: checked, planned, run, the same each time."""

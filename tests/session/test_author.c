@@ -13,6 +13,7 @@
 #include "core/scene/generated.h"
 #include "ui/document/body-marks.h"
 #include "core/author/edits.h"
+#include "core/author/instrument_edits.h"
 #include "core/author/generated_edits.h"
 #include "ui/document/hand-edit.h"
 #include "ui/document/number-text.h"
@@ -446,14 +447,16 @@ static void test_probe_and_pin(Fixture *fixture, gconstpointer data) {
   g_assert_cmpstr(spore_object_text(pin, "body"), ==, "my_organ");
   assert_one_step(fixture, before);
   g_autofree char *pinned = text_of(fixture);
-  SporeObject *probe = spore_edit_add_probe(fixture->document, &error);
+  SporeObject *probe = spore_edit_add_instrument(fixture->document, spore_instrument_find("probe"), NULL,
+                                                 (SporeInstrumentPlaces){0}, &error);
   g_assert_no_error(error);
-  g_assert_true(spore_edit_find_probe(fixture->document) == probe);
+  g_assert_cmpint((int)spore_object_number(probe, "role"), ==, SPORE_ACTIVE);
   int position = spore_parameter_find(spore_object_type(probe)->table, "position");
   g_assert_cmpfloat(spore_object_value(probe, (guint)position)->number[1], >, 0.1); /* above the highest point */
   assert_one_step(fixture, pinned);
   /* A second probe shares the mouse. */
-  spore_edit_add_probe(fixture->document, &error);
+  spore_edit_add_instrument(fixture->document, spore_instrument_find("probe"), NULL, (SporeInstrumentPlaces){0},
+                            &error);
   g_assert_no_error(error);
   g_assert_cmpuint(spore_object_child_count(spore_document_section(fixture->document, "devices")), ==, 1);
 }

@@ -1,0 +1,43 @@
+/* The library of instruments: nothing but the list, and how to find one in it. */
+#include "core/author/instruments.h"
+
+#include <glib/gi18n.h>
+
+static const char *const pressing[] = {"trigger", "button", "opening", "1.2", "torque", "0.01", "strength", "4", NULL};
+static const char *const cutting[] = {"trigger", "button", "opening", "1", NULL};
+static const char *const heating[] = {"radius", "0.004", NULL};
+static const char *const sucking[] = {"trigger", "button", NULL};
+
+const SporeInstrumentKind spore_instruments[] = {
+    {"probe", N_("Probe"), "probe", SPORE_HEAD_BALL, .radius = 0.0035, .head_radius = 0.005, .clearance = 0.02},
+    {"grasper", N_("Grasper"), "grasper", SPORE_HEAD_JAWS, .radius = 0.0025, .head_length = 0.018,
+     .head_radius = 0.0015, .clearance = 0.01, .settings = pressing},
+    {"clamp", N_("Clamp"), "clamp", SPORE_HEAD_JAWS, .radius = 0.0025, .head_length = 0.024, .head_radius = 0.0015,
+     .clearance = 0.01, .settings = pressing},
+    {"scissors", N_("Scissors"), "scissors", SPORE_HEAD_BLADES, .radius = 0.0025, .head_length = 0.016,
+     .head_radius = 0.0012, .clearance = 0.01, .settings = cutting},
+    {"bipolar", N_("Bipolar forceps"), "bipolar", SPORE_HEAD_PRONGS, .radius = 0.0025, .head_length = 0.014,
+     .head_radius = 0.001, .clearance = 0.01, .settings = heating},
+    {"suction", N_("Suction"), "suction", SPORE_HEAD_MOUTH, .radius = 0.0025, .clearance = 0.01, .settings = sucking},
+    {"needle", N_("Needle with thread"), "needle", SPORE_HEAD_ARC, .radius = 0.0004, .head_radius = 0.007,
+     .clearance = 0.01},
+    {"endoscope", N_("Endoscope"), "probe", SPORE_HEAD_LENS, .radius = 0.005, .clearance = 0.08},
+    {"endoscope_30", N_("Endoscope, 30 degrees"), "probe", SPORE_HEAD_LENS, .radius = 0.005, .clearance = 0.08,
+     .look_rad = G_PI / 6},
+    {NULL},
+};
+
+const SporeInstrumentKind *spore_instrument_find(const char *name) {
+  const SporeInstrumentKind *instrument = spore_instruments;
+  while (instrument->name && !g_str_equal(instrument->name, name)) instrument++;
+  return instrument->name ? instrument : NULL;
+}
+
+gboolean spore_instrument_has_jaws(const SporeInstrumentKind *instrument) {
+  return instrument->head == SPORE_HEAD_JAWS || instrument->head == SPORE_HEAD_BLADES;
+}
+
+SporeVec3 spore_instrument_tip(const SporeInstrumentKind *instrument) {
+  if (instrument->head == SPORE_HEAD_ARC) return (SporeVec3){instrument->head_radius, 0, 0};
+  return (SporeVec3){0, -instrument->head_length, 0};
+}
