@@ -62,7 +62,7 @@ void spore_window_release_document(SporeWindow *self) {
 }
 
 void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
-  spore_window_end_link(self);
+  spore_window_end_pick(self);
   spore_window_release_document(self);
   self->document = spore_editor_document_new(document);
   self->player = spore_player_new(self->document);
@@ -85,6 +85,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_plan_set_document(SPORE_PLAN(self->plan), self->document);
   spore_accuracy_set_document(SPORE_ACCURACY(self->accuracy), self->document);
   spore_plots_set_document(SPORE_PLOTS(self->plots), self->document, self->player);
+  spore_exercise_panel_set_document(SPORE_EXERCISE_PANEL(self->exercise), self->document, self->player);
   gtk_widget_hide(self->message_bar);
   player_changed(self);
 }
@@ -326,18 +327,44 @@ static void act_save_study(GSimpleAction *action, GVariant *parameter, gpointer 
   save_study(data, g_variant_get_string(parameter, NULL));
 }
 
-static void act_save_study_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  static const char *const kinds[][2] = {
-      {".html", N_("Pages (HTML)")}, {".csv", N_("Tables (CSV)")}, {".svg", N_("Pictures (SVG)")}};
-  const char *suffix = g_variant_get_string(parameter, NULL);
+/* A file of the kind that the suffix says. g_free; NULL: none was chosen, or there is no such kind. */
+static char *choose_report(SporeWindow *self, const char *title, const char *name, const char *suffix) {
+  static const char *const kinds[][2] = {{".html", N_("Pages (HTML)")},
+                                         {".csv", N_("Tables (CSV)")},
+                                         {".json", N_("Objects (JSON)")},
+                                         {".svg", N_("Pictures (SVG)")}};
   for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
     if (!g_str_equal(suffix, kinds[i][0])) continue;
-    g_autofree char *pattern = g_strconcat("*", suffix, NULL), *proposed = g_strconcat("accuracy", suffix, NULL);
-    g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save the study"),
-                                                       _("_Save"), pattern, _(kinds[i][1]), proposed),
-                                           suffix);
-    if (file) save_study(data, file);
+    g_autofree char *pattern = g_strconcat("*", suffix, NULL), *proposed = g_strconcat(name, suffix, NULL);
+    return with_extension(
+        choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, title, _("_Save"), pattern, _(kinds[i][1]), proposed), suffix);
   }
+  return NULL;
+}
+
+static void act_save_study_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *suffix = g_variant_get_string(parameter, NULL);
+  g_autofree char *file = choose_report(data, _("Save the study"), "accuracy", suffix);
+  if (file) save_study(data, file);
+}
+
+/* The exercise. */
+
+static void save_exercise(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  gboolean saved = spore_exercise_panel_save(SPORE_EXERCISE_PANEL(self->exercise), file, &error);
+  if (saved) spore_window_log(self, _("Saved %s"), file);
+  else spore_window_failed(self, error);
+}
+
+static void act_save_exercise(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_exercise(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_exercise_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *suffix = g_variant_get_string(parameter, NULL);
+  g_autofree char *file = choose_report(data, _("Save the report"), "exercise", suffix);
+  if (file) save_exercise(data, file);
 }
 
 static void act_close(GSimpleAction *action, GVariant *parameter, gpointer data) { gtk_window_close(data); }
@@ -361,6 +388,8 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"save-plan-dialog", act_save_plan_dialog},
       {"save-study", act_save_study, "s"},
       {"save-study-dialog", act_save_study_dialog, "s"},
+      {"save-exercise", act_save_exercise, "s"},
+      {"save-exercise-dialog", act_save_exercise_dialog, "s"},
       {"close", act_close},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -167,7 +167,7 @@ static void change_pick_places(GSimpleAction *action, GVariant *state, gpointer 
   gboolean picking = g_variant_get_boolean(state) && spore_window_picks_places(self);
   g_simple_action_set_state(action, g_variant_new_boolean(picking));
   self->picked = (SporeViewportPlaces){0};
-  spore_window_end_link(self);
+  spore_window_end_pick(self);
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
   show_places(self);
   show_candidate(self);

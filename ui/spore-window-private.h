@@ -3,10 +3,12 @@
 #ifndef SPORE_UI_SPORE_WINDOW_PRIVATE_H
 #define SPORE_UI_SPORE_WINDOW_PRIVATE_H
 
+#include "core/author/link_edits.h"
 #include "ui/document/recovery.h"
 #include "ui/jobs/spore-generator.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/panels/spore-accuracy.h"
+#include "ui/panels/spore-exercise.h"
 #include "ui/panels/spore-generator-panel.h"
 #include "ui/panels/spore-inspector.h"
 #include "ui/panels/spore-outliner.h"
@@ -17,21 +19,32 @@
 #include "ui/spore-window.h"
 #include "ui/viewport/spore-viewport.h"
 
-/* A link whose ends are being picked. */
-typedef struct SporeLinkDraft {
+/* What is made by picking: links, or steps of an exercise. */
+typedef struct SporePickKind {
+  guint (*count)(const SporeObjectType *type);                /* clicks that it takes */
+  const char *(*doc)(const SporeObjectType *type, guint end); /* what is clicked on, translated */
+  SporeObject *(*add)(SporeDocument *document, const char *element, const SporeLinkEnd *ends, guint count,
+                      GError **error);
+  gboolean (*tie)(SporeDocument *document, SporeObject *object, const SporeLinkEnd *ends, guint count, GError **error);
+  const char *later; /* hint after the first click, translatable: label, number of the click, of how many, doc */
+} SporePickKind;
+
+/* An object whose ends are being picked. */
+typedef struct SporePickDraft {
+  const SporePickKind *kind;
   const SporeObjectType *type; /* NULL: none */
-  guint32 link;                /* id of the link that is tied elsewhere; 0: a new one */
+  guint32 object;              /* id of the one that gets other ends; 0: a new one */
   guint count;                 /* of the ends so far */
   guint32 bodies[2];           /* ids; 0: the scene */
   SporeVec3 places[2];         /* in the scene, m */
-} SporeLinkDraft;
+} SporePickDraft;
 
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text,
       *hold_bar, *hold_text, *hold_button;
-  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *generator_panel, *middle, *bottom,
-      *tabs, *log, *hint, *job_box, *job_label, *job_bar;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *exercise, *generator_panel, *middle,
+      *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */
@@ -45,7 +58,7 @@ struct _SporeWindow {
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
   GMenu *link_kinds;
-  SporeLinkDraft draft;
+  SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
@@ -79,12 +92,20 @@ void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 /* Enables the actions that can be done now. */
 void spore_window_update_actions(SporeWindow *self);
 
-/* spore-window-links.c: links made by picking. */
+/* spore-window-picking.c: what is made by clicks in the view. */
+void spore_window_add_pick_actions(SporeWindow *self);
+/* Begins to pick the ends of a new object of that type, or other ends for the object of that id. */
+void spore_window_begin_pick(SporeWindow *self, const SporePickKind *kind, const SporeObjectType *type, guint32 object);
+/* Forgets what is being picked, if anything is. */
+void spore_window_end_pick(SporeWindow *self);
+
+/* spore-window-links.c: links. */
 void spore_window_add_link_actions(SporeWindow *self);
 /* An entry for each kind of link that the schema has. */
 void spore_window_fill_link_menu(SporeWindow *self);
-/* Forgets the link whose ends are being picked, if any. */
-void spore_window_end_link(SporeWindow *self);
+
+/* spore-window-exercise.c: steps and metrics of the exercise. */
+void spore_window_add_exercise_actions(SporeWindow *self);
 
 /* spore-window-generate.c: generators. */
 void spore_window_add_generator_actions(SporeWindow *self);

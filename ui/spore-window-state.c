@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
-#include "core/author/link_edits.h"
+#include "core/author/exercise_edits.h"
 #include "core/scene/generated.h"
 #include "ui/spore-window-private.h"
 
@@ -132,16 +132,15 @@ static const char *picking_hint(SporeWindow *self) {
   return _(spore_generators[spore_generator_get_options(self->generator)->kind]->places->hints[self->picked.count]);
 }
 
-/* What to click on, while the ends of a link are picked; else NULL. g_free. */
-static char *link_hint(SporeWindow *self) {
-  const SporeLinkDraft *draft = &self->draft;
-  guint ends = draft->type ? spore_link_end_count(draft->type) : 0;
-  if (draft->count >= ends) return NULL; /* the link is being made */
-  const char *doc = spore_link_end_doc(draft->type, draft->count);
+/* What to click on, while the ends of an object are picked; else NULL. g_free. */
+static char *draft_hint(SporeWindow *self) {
+  const SporePickDraft *draft = &self->draft;
+  guint ends = draft->type ? draft->kind->count(draft->type) : 0;
+  if (draft->count >= ends) return NULL; /* the object is being made */
+  const char *doc = draft->kind->doc(draft->type, draft->count);
   if (!draft->count)
     return g_strdup_printf(_("%s, click %u of %u: %s Escape ends"), _(draft->type->label), 1, ends, doc);
-  return g_strdup_printf(_("%s, click %u of %u: %s Beside the bodies is the scene; Escape goes back"),
-                         _(draft->type->label), draft->count + 1, ends, doc);
+  return g_strdup_printf(_(draft->kind->later), _(draft->type->label), draft->count + 1, ends, doc);
 }
 
 static const char *hint_for(SporeWindow *self) {
@@ -168,8 +167,8 @@ static const char *hint_for(SporeWindow *self) {
 
 void spore_window_show_hint(SporeWindow *self) {
   guint hidden = spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport));
-  g_autofree char *of_link = link_hint(self);
-  const char *hint = of_link ? of_link : hint_for(self);
+  g_autofree char *of_draft = draft_hint(self);
+  const char *hint = of_draft ? of_draft : hint_for(self);
   g_autofree char *text = hidden ? g_strdup_printf(ngettext("%u body is hidden, A shows all; %s",
                                                             "%u bodies are hidden, A shows all; %s", hidden),
                                                    hidden, hint)
@@ -211,6 +210,18 @@ static void update_study(SporeWindow *self, gboolean bodies) {
   set_enabled(self, "save-study-dialog", studied);
 }
 
+static void update_exercise(SporeWindow *self, const SporeObject *selected, gboolean bodies, gboolean session) {
+  gboolean step = spore_step_is(selected), part = step || spore_metric_is(selected);
+  set_enabled(self, "add-step", bodies);
+  set_enabled(self, "add-metric", bodies);
+  set_enabled(self, "aim-step", step);
+  set_enabled(self, "skip-to-step", step && session);
+  set_enabled(self, "move-part", part);
+  set_enabled(self, "remove-part", part);
+  set_enabled(self, "save-exercise", session);
+  set_enabled(self, "save-exercise-dialog", session);
+}
+
 void spore_window_update_actions(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
@@ -235,6 +246,7 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "add-pin", bodies);
   set_enabled(self, "add-link", bodies);
   set_enabled(self, "tie-link", spore_link_is(selected));
+  update_exercise(self, selected, bodies, session);
   set_enabled(self, "import", idle);
   set_enabled(self, "import-dialog", idle);
   set_enabled(self, "import-dialog-with", idle);

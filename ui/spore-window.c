@@ -163,6 +163,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, accuracy);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, exercise);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, middle);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
@@ -186,6 +187,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_ACCURACY);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
   g_type_ensure(SPORE_TYPE_PLOTS);
+  g_type_ensure(SPORE_TYPE_EXERCISE_PANEL);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-window.ui");
   bind_children(widget);
@@ -205,7 +207,9 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_file_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
+  spore_window_add_pick_actions(self);
   spore_window_add_link_actions(self);
+  spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));

@@ -19,6 +19,9 @@
  *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in
  *               .html, .csv or .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path],
  *               save-plan-dialog
+ *   exercise    add-step [s element], aim-step, add-metric [s element], move-part [i -1 or 1], remove-part (the
+ *               selected one), set-threshold [s path, s "good" or "pass", s number and unit], skip-to-step,
+ *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,

@@ -275,7 +275,7 @@ void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world) {
   exercise->looks = 0;
   exercise->steps_done = 0;
   exercise->phase = SPORE_EXERCISE_RUNNING;
-  exercise->step_was_done = exercise->paused = false;
+  exercise->step_was_done = exercise->paused = exercise->tried = false;
   for (size_t i = 0; i < exercise->step_count; i++)
     exercise->steps[i] = (SporeStepRun){.from = exercise->steps[i].from, .done_s = NAN, .since_s = -1};
   for (size_t i = 0; i < exercise->metric_count; i++) {
@@ -293,6 +293,20 @@ void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world) {
 }
 
 void spore_exercise_pause(SporeExercise *exercise, bool paused) { exercise->paused = paused; }
+
+void spore_exercise_skip_to(SporeExercise *exercise, size_t index) {
+  assert(index < exercise->step_count);
+  if (exercise->phase != SPORE_EXERCISE_RUNNING || exercise->steps[index].phase != SPORE_STEP_WAITING) return;
+  for (uint32_t at = exercise->steps[index].from.after; at != SPORE_NO_PART; at = exercise->steps[at].from.after) {
+    SporeStepRun *step = &exercise->steps[at];
+    if (step->phase == SPORE_STEP_DONE) continue;
+    step->phase = SPORE_STEP_DONE;
+    step->done_s = exercise->time_s;
+    exercise->steps_done++;
+  }
+  exercise->tried = true;
+  open_steps(exercise);
+}
 
 void spore_exercise_watch(SporeExercise *exercise, const SporeWorld *world) {
   double h = spore_world_time_s(world) - exercise->world_s;
@@ -356,6 +370,7 @@ SporeMetricState spore_exercise_metric_state(const SporeExercise *exercise, size
 SporeExerciseState spore_exercise_state(const SporeExercise *exercise) {
   SporeExerciseState state = {.phase = exercise->phase,
                               .paused = exercise->paused,
+                              .tried = exercise->tried,
                               .time_s = exercise->time_s,
                               .steps = exercise->step_count,
                               .steps_done = exercise->steps_done,

@@ -87,6 +87,9 @@ void spore_exercise_watch(SporeExercise *exercise, const SporeWorld *world);
 void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world);
 /* While it is paused nothing counts, and its clock stands still. */
 void spore_exercise_pause(SporeExercise *exercise, bool paused);
+/* For a try-out: what the step waits for counts as done from now on, so that the step is open. The world stays as it
+ * is. Nothing happens where the step is open or done, or where the exercise has ended. */
+void spore_exercise_skip_to(SporeExercise *exercise, size_t step);
 
 /* Where an exercise is. */
 typedef enum SporeExercisePhase {
@@ -136,6 +139,7 @@ typedef struct SporeMetricState {
 typedef struct SporeExerciseState {
   SporeExercisePhase phase;
   bool paused;
+  bool tried;    /* steps were skipped since it began: a try-out */
   double time_s; /* on the exercise's clock */
   size_t steps, steps_done, metrics;
   double score; /* 0 to 100: the share of the steps that are done, times the mean of the marks by weight */

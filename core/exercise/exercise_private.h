@@ -54,8 +54,8 @@ struct SporeExercise {
   uint64_t looks;
   size_t steps_done;
   SporeExercisePhase phase;
-  bool paused, step_was_done; /* the latter: in the last look */
-  double time_s, world_s;     /* its clock; the world's when it last looked */
+  bool paused, tried, step_was_done; /* the last: in the last look */
+  double time_s, world_s;            /* its clock; the world's when it last looked */
 };
 
 /* places.c */

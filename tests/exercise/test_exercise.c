@@ -109,6 +109,34 @@ static void test_pause_and_restart(void) {
   rig_free(course.rig);
 }
 
+/* What a step waits for counts as done where the try-out goes on from that step; what comes after is done as ever. */
+static void test_skip(void) {
+  Course course;
+  set_up(&course);
+  course.description.fields.order = SPORE_ORDER_GIVEN;
+  SporeExercise *exercise = create(&course);
+  run(&course, exercise, 25); /* past the second place: two steps are done */
+  g_assert_cmpuint(spore_exercise_state(exercise).steps_done, ==, 2);
+  spore_exercise_skip_to(exercise, 2); /* open already */
+  g_assert_false(spore_exercise_state(exercise).tried);
+  spore_exercise_skip_to(exercise, 4);
+  g_assert_true(spore_exercise_state(exercise).tried);
+  g_assert_cmpuint(spore_exercise_state(exercise).steps_done, ==, 4);
+  g_assert_cmpfloat_with_epsilon(spore_exercise_step_state(exercise, 3).done_s, 25 * H, 1e-12);
+  g_assert_cmpfloat(spore_exercise_step_state(exercise, 1).done_s, <, 24 * H);
+  g_assert_cmpint(spore_exercise_step_state(exercise, 4).phase, ==, SPORE_STEP_OPEN);
+  g_assert_cmpint(spore_exercise_step_state(exercise, 5).phase, ==, SPORE_STEP_WAITING);
+  run(&course, exercise, 55);
+  g_assert_cmpint(spore_exercise_state(exercise).phase, ==, SPORE_EXERCISE_DONE);
+  spore_exercise_skip_to(exercise, 5);
+  spore_world_reset(course.world);
+  spore_exercise_restart(exercise, course.world);
+  g_assert_false(spore_exercise_state(exercise).tried);
+  g_assert_cmpuint(spore_exercise_state(exercise).steps_done, ==, 0);
+  spore_exercise_free(exercise);
+  rig_free(course.rig);
+}
+
 /* Steps in a random order: the ball passes the places in turn, so that a step is done just where the one that it waits
  * for was done before, and lies before it on the way. */
 static void test_random_orders(void) {
@@ -178,6 +206,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/exercise/watching", test_watching);
   g_test_add_func("/exercise/pause_and_restart", test_pause_and_restart);
+  g_test_add_func("/exercise/skip", test_skip);
   g_test_add_func("/exercise/random_orders", test_random_orders);
   g_test_add_func("/exercise/refused", test_refused);
   g_test_add_func("/exercise/memory", test_memory);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/exercise_report.h"
 #include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
@@ -40,11 +41,7 @@ static void put(SporeDocument *document, const char *file, char *text) {
   spore_document_put_blob(document, file, content);
 }
 
-static SporeDocument *new_document(SporeSchema **schema) {
-  GError *error = NULL;
-  *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
-  SporeDocument *document = spore_scene_parse(*schema, NULL, scene_text, strlen(scene_text), &error);
-  g_assert_no_error(error);
+static void put_assets(SporeDocument *document) {
   put(document, "cube.off",
       g_strdup("OFF\n8 12 0\n" CORNERS("") "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 7 6\n"
                                            "3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n"));
@@ -53,6 +50,14 @@ static SporeDocument *new_document(SporeSchema **schema) {
           " 0") "Tetrahedra\n5\n1 2 3 6 0\n1 3 4 8 0\n1 6 8 5 0\n3 8 6 7 0\n1 3 8 6 0\nEnd\n"));
   put(document, "ball.spheres", g_strdup("0 0 0 0.05\n0.03 0.03 0.03 0.02\n"));
   put(document, "floor.spheres", g_strdup("0 0 0 0.05\n-0.06 0 0 0.05\n0.06 0 0 0.05\n"));
+}
+
+static SporeDocument *new_document(SporeSchema **schema) {
+  GError *error = NULL;
+  *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
+  SporeDocument *document = spore_scene_parse(*schema, NULL, scene_text, strlen(scene_text), &error);
+  g_assert_no_error(error);
+  put_assets(document);
   return document;
 }
 
@@ -164,6 +169,102 @@ static void test_reset_goes_back(Fixture *fixture, gconstpointer data) {
   spore_session_play(session);
   spore_session_reset(session);
   g_assert_true(spore_session_is_playing(session));
+  spore_session_free(session);
+}
+
+static const char exercise_parts[] =
+    "<reached name=\"near\" tool=\"tool\" point=\"0.1 0.01 0\" radius=\"0.03\"/>"
+    "<touched name=\"push\" tool=\"tool\" body=\"organ\" after=\"near\"/>"
+    "<path_length name=\"path\" good=\"1 cm\" pass=\"1 m\"/><peak_force name=\"force\" good=\"1 N\" pass=\"900 N\"/>";
+
+/* The fixture's scene with an exercise. */
+static void add_exercise(Fixture *fixture) {
+  static const char end[] = "</spore>\n";
+  GError *error = NULL;
+  g_autofree char *text = g_strdup_printf("%.*s<exercise>%s</exercise>%s", (int)(sizeof scene_text - sizeof end),
+                                          scene_text, exercise_parts, end);
+  SporeDocument *before = fixture->document;
+  fixture->document = spore_scene_parse(fixture->schema, NULL, text, strlen(text), &error);
+  g_assert_no_error(error);
+  put_assets(fixture->document);
+  spore_document_free(before);
+}
+
+static void keep_report(const SporeExercise *exercise, gpointer report) {
+  *(char **)report = spore_exercise_report(exercise, "scene", ".json");
+}
+
+static char *report_of(SporeSession *session) {
+  char *report = NULL;
+  g_assert_true(spore_session_read_exercise(session, keep_report, &report));
+  return report;
+}
+
+/* What a plain loop over the world says of its exercise. */
+static char *loop_report(Fixture *fixture, guint steps) {
+  GError *error = NULL;
+  char *report;
+  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, &fixture->track, NULL, &error);
+  g_assert_no_error(error);
+  for (guint i = 0; i < steps; i++) {
+    spore_world_step(simulation->world);
+    spore_exercise_watch(simulation->exercise, simulation->world);
+  }
+  keep_report(simulation->exercise, &report);
+  spore_simulation_free(simulation);
+  return report;
+}
+
+/* The score of a session is that of a plain loop to the last digit, stepped or played, and again after a reset. */
+static void test_exercise_equals_loop(Fixture *fixture, gconstpointer data) {
+  add_exercise(fixture);
+  g_autofree char *expected = loop_report(fixture, STEPS), *start = loop_report(fixture, 0);
+  g_assert_nonnull(strstr(expected, "\"phase\" : \"done\",\n    \"time_s\""));
+  SporeSession *session = new_session(fixture, 2, &fixture->track);
+  spore_session_set_speed(session, 0);
+  play_past(session, STEPS);
+  g_autofree char *played = report_of(session);
+  g_assert_cmpstr(played, ==, expected);
+  spore_session_reset(session);
+  g_autofree char *anew = report_of(session);
+  g_assert_cmpstr(anew, ==, start);
+  spore_session_step(session, STEPS);
+  g_autofree char *stepped = report_of(session);
+  g_assert_cmpstr(stepped, ==, expected);
+  spore_session_free(session);
+}
+
+/* A try-out is told from an attempt, and a new beginning is an attempt. */
+static void test_exercise_is_tried(Fixture *fixture, gconstpointer data) {
+  add_exercise(fixture);
+  SporeSession *session = new_session(fixture, 1, NULL);
+  g_assert_false(spore_session_skip_to(session, 2));
+  g_assert_true(spore_session_skip_to(session, 1));
+  g_autofree char *tried = report_of(session);
+  g_assert_nonnull(strstr(tried, "\"tried\" : true"));
+  spore_session_reset(session);
+  g_autofree char *anew = report_of(session);
+  g_assert_null(strstr(anew, "tried"));
+  spore_session_free(session);
+}
+
+/* The clock of an exercise begins where a session takes over the state of another one. */
+static void test_exercise_carries_nothing_over(Fixture *fixture, gconstpointer data) {
+  add_exercise(fixture);
+  SporeSession *old = new_session(fixture, 1, &fixture->track), *new = new_session(fixture, 1, NULL);
+  spore_session_step(old, STEPS);
+  spore_session_carry_over(new, old);
+  spore_session_step(new, 1);
+  g_autofree char *report = report_of(new);
+  g_assert_nonnull(strstr(report, "\"time_s\" : 0.001"));
+  spore_session_free(old);
+  spore_session_free(new);
+}
+
+static void test_no_exercise(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, NULL);
+  g_assert_false(spore_session_read_exercise(session, keep_report, NULL));
+  g_assert_false(spore_session_skip_to(session, 0));
   spore_session_free(session);
 }
 
@@ -374,6 +475,10 @@ int main(int argc, char **argv) {
       {"paced-run-equals-loop", test_paced_run_equals_loop},
       {"pause-stands-still", test_pause_stands_still},
       {"reset-goes-back", test_reset_goes_back},
+      {"exercise-equals-loop", test_exercise_equals_loop},
+      {"exercise-is-tried", test_exercise_is_tried},
+      {"exercise-carries-nothing-over", test_exercise_carries_nothing_over},
+      {"no-exercise", test_no_exercise},
       {"pointer-leads-and-pushes", test_pointer_leads_and_pushes},
       {"pointer-takes-over", test_pointer_takes_over},
       {"recording-repeats", test_recording_repeats},

@@ -1724,6 +1724,107 @@ def a_link_by_the_keyboard():
         assert link["body_a"] == "left" and "body_b" not in link, link
 
 
+def exercise_scene(name):
+    """A probe whose track leads it from beside a ball, which stands, onto the ball and away; no exercise."""
+    path = folder("scenes") / name / "scene.spore"
+    path.parent.mkdir(exist_ok=True)
+    (path.parent / "ball.off").write_bytes(ball().read_bytes())
+    (path.parent / "ball.spheres").write_text("0 0 0 0.03\n")
+    (path.parent / "tip.spheres").write_text("0 0 0 0.005\n")
+    rows = "".join(f"{t / 100:.2f} {min(-0.08 + 0.001 * t, 0.02 - 0.001 * t):.6f} 0 0 1 0 0 0 0 0\n" for t in range(101))
+    (path.parent / "hand.track").write_text(f"spore-track 1\ndevice tip\n{rows}")
+    path.write_text('''<spore version="1.0"><environment gravity="0 0 0"/><solver time_step="0.005"/>
+<assets><mesh name="ball" file="ball.off"/><spheres name="felt" file="ball.spheres"/><spheres name="tip" file="tip.spheres"/></assets>
+<bodies><body name="tip" role="active" position="-0.08 0 0"><collision spheres="tip"/></body>
+<body name="organ" role="unmovable"><collision spheres="felt"/><visual mesh="ball"/></body></bodies>
+<tools><probe name="rod" body="tip" device="hand"/></tools>
+<devices><track name="hand" file="hand.track"/></devices></spore>
+''')
+    return path
+
+
+def add_step(editor, kind, at):
+    editor.act("add-step", "s", kind)
+    editor.find("label", ", click 1 of 1: ")
+    editor.mouse("mousemove", *at, "click", 1)
+    ui.wait(lambda: not editor.look("label", ", click 1 of 1: "), "the step to be made")
+
+
+def shown(editor, pattern):
+    """What the label says that matches, or None."""
+    label = editor.look("label", pattern)
+    return label.get_name() if label else None
+
+
+@check
+def exercise_from_nothing():
+    """an exercise is authored from nothing, played from its track, and scored; the command line gives the same score, and each try-out says that it is one."""
+    with start(exercise_scene("exercise")) as editor:
+        ui.wait(lambda: editor.row("organ"), "the scene")
+        editor.act("frame")
+        editor.act("view", "s", "front")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height * 9 // 10)
+        editor.act("add-step", "s", "cut")
+        ui.wait(lambda: "expected one of: scissors" in (editor.message() or ""), "the refusal of what no tool can do")
+        editor.press(editor.find("toggle button", "^Add step$"))
+        kinds = [editor.find("menu item|push button|check box|radio button", f"^{label}$") for label in ("Touched", "Reached", "Put into the bag")]
+        editor.press(kinds[0])
+        editor.find("label", "^Touched, click 1 of 1: Body that it is done to. Escape ends")
+        editor.mouse("mousemove", *beside, "click", 1)
+        ui.wait(lambda: "nothing was met there" in (editor.message() or ""), "the refusal of no body")
+        editor.mouse("mousemove", *middle, "click", 1)
+        editor.find("label", "^1. Touched: organ$")
+        add_step(editor, "reached", beside)
+        editor.find("label", "^2. Reached, by rod$")
+        editor.act("set-property", "(sss)", ("exercise/reached", "point", "-0.07 0 0"))
+        editor.act("set-property", "(sss)", ("exercise/reached", "after", "organ_touched"))
+        editor.act("set-property", "(sss)", ("exercise/reached", "hint", "Draw it back."))
+        editor.find("label", "^2. Reached, by rod, after organ_touched$")
+        editor.act("move-part", "i", -1)
+        editor.find("label", "^1. Reached, by rod")
+        editor.act("undo")
+        for metric in ("path_length", "time_taken"):
+            editor.act("add-metric", "s", metric)
+        editor.set_entry(editor.find("text|entry", "^Good: path_length$"), "5 cm")
+        editor.set_entry(editor.find("text|entry", "^Pass: path_length$"), "0.3")
+        ui.wait(lambda: editor.text_of(editor.find("text|entry", "^Pass: path_length$")) == "0.3 m", "the unit")
+        editor.set_entry(editor.find("text|entry", "^Good: time_taken$"), "5 mm")
+        ui.wait(lambda: "unit that this is not measured in" in (editor.message() or ""), "the refusal of the unit")
+        editor.act("set-threshold", "(sss)", ("exercise/time_taken", "good", "1 s"))
+        editor.act("set-property", "(sss)", ("exercise", "time_limit", "30"))
+        scene = pathlib.Path(folder("scenes") / "exercise" / "scene.spore")
+        editor.act("save")
+        ui.wait(lambda: "organ_touched" in scene.read_text(), "the scene to be saved")
+        editor.act("speed", "s", "0")
+        editor.act("play")
+        said = ui.wait(lambda: shown(editor, "^Done: "), "the exercise to be done", 120)
+        editor.act("pause")
+        report = folder("exercise") / "report.json"
+        for file in (report, report.with_suffix(".csv"), report.with_suffix(".html")):
+            editor.act("save-exercise", "s", str(file))
+            ui.wait(file.exists, f"{file.name}")
+        done = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "run", scene, "-n", "400", "--report", report.with_name("run.json")],
+                              capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        same = report.with_name("run.json").read_bytes()
+        assert same == report.read_bytes(), (same, report.read_bytes())
+        exercise = json.loads(same)["exercise"]
+        assert exercise["phase"] == "done" and 0 < exercise["score"] < 100 and "tried" not in exercise, exercise
+        assert f": 2 of 2 steps, {exercise['time_s']:.2f} of 30 s, score {exercise['score']:.1f}, passed" in said, said
+        assert "<svg" in report.with_suffix(".html").read_text() and "score,,," in report.with_suffix(".csv").read_text()
+        editor.act("save-exercise", "s", str(report.with_suffix(".txt")))
+        ui.wait(lambda: "expected .csv, .json or .html" in (editor.message() or ""), "the refusal of another kind of file")
+        editor.act("reset")
+        ui.wait(lambda: shown(editor, "^Under way: 0 of 2 steps, 0.00 of 30 s"), "a new beginning")
+        editor.act("select", "s", "exercise/reached")
+        editor.act("skip-to-step")
+        ui.wait(lambda: shown(editor, "^Try-out: 1 of 2 steps"), "the try-out")
+        editor.find("label", "^Draw it back.$")
+        editor.act("remove-part")
+        ui.wait(lambda: not editor.look("label", "^2. Reached"), "the step to go")
+
+
 @check
 def an_effect_takes_the_place_of_physics():
     """while a ball falls, an effect takes its place and physics comes back: the run goes on, without a restart."""

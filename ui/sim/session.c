@@ -268,6 +268,18 @@ static void keep_measured(SporeSession *session, const Measured *measured) {
   session->stride *= 2;
 }
 
+/* With the mutex held, like all that is done to the exercise. An ended step leaves the state before it. */
+static void watch_exercise(SporeSession *session) {
+  const SporeSimulation *simulation = session->simulation;
+  if (simulation->exercise && !spore_world_cancelled(simulation->world))
+    spore_exercise_watch(simulation->exercise, simulation->world);
+}
+
+static void restart_exercise(SporeSession *session) {
+  const SporeSimulation *simulation = session->simulation;
+  if (simulation->exercise) spore_exercise_restart(simulation->exercise, simulation->world);
+}
+
 /* With the mutex held on both sides of the step. */
 static void take_step(SporeSession *session) {
   guint64 stride = session->stride;
@@ -279,6 +291,7 @@ static void take_step(SporeSession *session) {
   g_mutex_lock(&session->mutex);
   keep_measured(session, &measured);
   drain_recorders(session);
+  watch_exercise(session);
 }
 
 static void take_paced_step(SporeSession *session) {
@@ -292,6 +305,7 @@ static void take_reset(SporeSession *session) {
   g_atomic_int_set(&session->ending, 0);
   session->steps = 0;
   spore_world_reset(session->simulation->world);
+  restart_exercise(session);
   for (guint i = 0; i < session->recorder_count; i++) {
     Recorder *recorder = &session->recorders[i];
     spore_pointer_device_release(recorder->pointer);
@@ -508,6 +522,7 @@ gboolean spore_session_try_reset(SporeSession *session) {
 
 void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
   spore_simulation_carry_over(to->simulation, from->simulation);
+  restart_exercise(to); /* of the state that it begins with */
   start_measuring(to);
 }
 
@@ -618,6 +633,25 @@ gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *poi
   g_cond_signal(&session->wake);
   g_mutex_unlock(&session->mutex);
   return taken;
+}
+
+gboolean spore_session_read_exercise(SporeSession *session, SporeExerciseReader read, gpointer data) {
+  const SporeExercise *exercise = session->simulation->exercise;
+  if (!exercise) return FALSE;
+  g_mutex_lock(&session->mutex);
+  read(exercise, data);
+  g_mutex_unlock(&session->mutex);
+  return TRUE;
+}
+
+gboolean spore_session_skip_to(SporeSession *session, gsize step) {
+  SporeExercise *exercise = session->simulation->exercise;
+  if (!exercise) return FALSE;
+  g_mutex_lock(&session->mutex);
+  gboolean has = step < spore_exercise_state(exercise).steps;
+  if (has) spore_exercise_skip_to(exercise, step);
+  g_mutex_unlock(&session->mutex);
+  return has;
 }
 
 static void copy_channel(SporeTrack *to, const SporeTrackChannel *source) {

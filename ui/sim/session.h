@@ -57,6 +57,13 @@ typedef struct SporeSessionFigures {
 } SporeSessionFigures;
 SporeSessionFigures spore_session_figures(SporeSession *session);
 
+/* Hands the exercise of the scene to `read`, which finds all of it as it was after one step. FALSE: the scene has none.
+ */
+typedef void (*SporeExerciseReader)(const SporeExercise *exercise, gpointer data);
+gboolean spore_session_read_exercise(SporeSession *session, SporeExerciseReader read, gpointer data);
+/* spore_exercise_skip_to, between two steps. FALSE: the exercise has no such step. */
+gboolean spore_session_skip_to(SporeSession *session, gsize step);
+
 /* Numbers over time: all of spore_quantities, measured some 30 times a simulated second since time 0, and less often
  * once there are thousands of rows. The columns stay until points are watched. */
 const SporeColumn *spore_session_columns(const SporeSession *session, gsize *count);

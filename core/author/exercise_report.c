@@ -1,20 +1,102 @@
 /* The report of an exercise as a file: a table, an object, or a page with plots in it. */
+#include "core/author/exercise_report.h"
+
 #include <glib/gi18n.h>
-#include <json-glib/json-glib.h>
 #include <math.h>
-#include <stdio.h>
 
-#include "app/cli/run_exercise.h"
 #include "core/base/number.h"
-#include "core/io/scene_xml.h"
+#include "core/scene/error.h"
 
-gboolean spore_exercise_file_check(const char *file, const char *scene, const char *input, GError **error) {
-  if (!g_str_has_suffix(file, ".csv") && !g_str_has_suffix(file, ".json") && !g_str_has_suffix(file, ".html"))
-    return spore_error_raise(error, SPORE_ERROR_INPUT, file,
-                             _("--report takes the kind of file from its name; expected .csv, .json or .html; name "
-                               "such a file"));
-  return spore_cli_has_room(file, scene, error) && (!input || spore_cli_has_room(file, input, error));
+gboolean spore_exercise_report_names(const char *file, GError **error) {
+  return g_str_has_suffix(file, ".csv") || g_str_has_suffix(file, ".json") || g_str_has_suffix(file, ".html") ||
+         spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                           _("a report takes the kind of file from its name; expected .csv, .json or .html; name such "
+                             "a file"));
 }
+
+/* The object. */
+
+static void add_known(JsonBuilder *builder, const char *member, double value) {
+  if (!isfinite(value)) return;
+  json_builder_set_member_name(builder, member);
+  json_builder_add_double_value(builder, value);
+}
+
+static void add_text(JsonBuilder *builder, const char *member, const char *value) {
+  if (!value) return;
+  json_builder_set_member_name(builder, member);
+  json_builder_add_string_value(builder, value);
+}
+
+static void add_step(JsonBuilder *builder, const SporeStepState *step) {
+  json_builder_begin_object(builder);
+  add_text(builder, "name", step->name);
+  add_text(builder, "kind", step->kind->element);
+  add_text(builder, "phase", spore_step_phase_names[step->phase]);
+  add_known(builder, "done_s", step->done_s);
+  json_builder_set_member_name(builder, "early");
+  json_builder_add_int_value(builder, (gint64)step->early);
+  add_text(builder, "hint", step->hint);
+  json_builder_end_object(builder);
+}
+
+static void add_metric(JsonBuilder *builder, const SporeMetricState *metric) {
+  json_builder_begin_object(builder);
+  add_text(builder, "name", metric->name);
+  add_text(builder, "kind", metric->kind->element);
+  json_builder_set_member_name(builder, "value");
+  if (isfinite(metric->value)) json_builder_add_double_value(builder, metric->value);
+  else json_builder_add_null_value(builder);
+  add_text(builder, "unit", metric->unit);
+  add_known(builder, "good", metric->good);
+  add_known(builder, "pass", metric->pass);
+  add_known(builder, "mark", metric->mark);
+  add_text(builder, "verdict", spore_metric_verdict_names[metric->verdict]);
+  add_text(builder, "source", metric->source);
+  json_builder_end_object(builder);
+}
+
+void spore_exercise_report_add(const SporeExercise *exercise, JsonBuilder *builder) {
+  SporeExerciseState state = spore_exercise_state(exercise);
+  json_builder_set_member_name(builder, "exercise");
+  json_builder_begin_object(builder);
+  add_text(builder, "phase", spore_exercise_phase_names[state.phase]);
+  add_known(builder, "time_s", state.time_s);
+  add_known(builder, "score", state.score);
+  json_builder_set_member_name(builder, "passed");
+  json_builder_add_boolean_value(builder, state.passed);
+  if (state.tried) { /* a run from the command line is none */
+    json_builder_set_member_name(builder, "tried");
+    json_builder_add_boolean_value(builder, TRUE);
+  }
+  json_builder_set_member_name(builder, "steps");
+  json_builder_begin_array(builder);
+  for (gsize i = 0; i < state.steps; i++) {
+    SporeStepState step = spore_exercise_step_state(exercise, i);
+    add_step(builder, &step);
+  }
+  json_builder_end_array(builder);
+  json_builder_set_member_name(builder, "metrics");
+  json_builder_begin_array(builder);
+  for (gsize i = 0; i < state.metrics; i++) {
+    SporeMetricState metric = spore_exercise_metric_state(exercise, i);
+    add_metric(builder, &metric);
+  }
+  json_builder_end_array(builder);
+  json_builder_end_object(builder);
+}
+
+static void object(GString *text, const SporeExercise *exercise) {
+  g_autoptr(JsonBuilder) builder = json_builder_new();
+  json_builder_begin_object(builder);
+  spore_exercise_report_add(exercise, builder);
+  json_builder_end_object(builder);
+  g_autoptr(JsonNode) root = json_builder_get_root(builder);
+  g_autofree char *json = json_to_string(root, TRUE);
+  g_string_append_printf(text, "%s\n", json);
+}
+
+/* The table. */
 
 /* A cell of a table; what is no number is left empty. */
 static void add_number(GString *text, double value) {
@@ -116,7 +198,7 @@ static void add_cell(GString *text, double value) {
   g_string_append(text, "</td>");
 }
 
-static void add_metrics(GString *text, const SporeExercise *exercise, const SporeExerciseState *state) {
+static void list_metrics(GString *text, const SporeExercise *exercise, const SporeExerciseState *state) {
   g_string_append_printf(text, "<table><tr><th>%s</th><th>%s</th><th>%s</th><th>%s</th><th>%s</th><th>%s</th></tr>\n",
                          _("metric"), _("value"), _("unit"), _("good"), _("pass"), _("source"));
   for (gsize i = 0; i < state->metrics; i++) {
@@ -135,49 +217,28 @@ static void add_metrics(GString *text, const SporeExercise *exercise, const Spor
   g_string_append(text, "</table>\n");
 }
 
-static void page(GString *text, const SporeExercise *exercise, const char *scene) {
+static void page(GString *text, const SporeExercise *exercise, const char *title) {
   SporeExerciseState state = spore_exercise_state(exercise);
-  g_autofree char *name = g_filename_display_basename(scene);
   g_string_append(text, "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"/><title>");
-  add_escaped(text, name);
+  add_escaped(text, title);
   g_string_append(text, "</title><style>body{font-family:sans-serif;margin:2em}td,th{padding:2px 10px;text-align:left}"
                         "</style></head><body>\n<h1>");
-  add_escaped(text, name);
+  add_escaped(text, title);
   g_string_append_printf(text, "</h1>\n<p>%s</p>\n<p>", _("For training and preview only."));
   g_string_append_printf(text, _("%zu of %zu steps done in %.2f s, score %.1f of 100"), state.steps_done, state.steps,
                          state.time_s, state.score);
+  if (state.tried) g_string_append_printf(text, "</p>\n<p>%s", _("A try-out: steps were skipped, and count as done."));
   g_string_append(text, "</p>\n");
   plot_steps(text, exercise, &state);
   plot_metrics(text, exercise, &state);
-  add_metrics(text, exercise, &state);
+  list_metrics(text, exercise, &state);
   g_string_append(text, "</body></html>\n");
 }
 
-/* The member `exercise` of the command's report. */
-static char *object(const SporeExercise *exercise) {
-  g_autoptr(JsonBuilder) builder = json_builder_new();
-  SporeCli cli = {.report = builder, .quiet = TRUE};
-  json_builder_begin_object(builder);
-  spore_run_report_exercise(&cli, exercise);
-  json_builder_end_object(builder);
-  g_autoptr(JsonNode) root = json_builder_get_root(builder);
-  return json_to_string(root, TRUE);
-}
-
-int spore_exercise_file_save(const SporeCli *cli, const SporeExercise *exercise, const char *scene, const char *file) {
-  GError *error = NULL;
-  if (spore_cli_interrupted()) {
-    fprintf(stderr, _("%s: interrupted; the report was not written, and what was there stays\n"), file);
-    return SPORE_EXIT_INTERRUPTED;
-  }
-  g_autoptr(GString) text = g_string_new(NULL);
+char *spore_exercise_report(const SporeExercise *exercise, const char *title, const char *file) {
+  GString *text = g_string_new(NULL);
   if (g_str_has_suffix(file, ".csv")) table(text, exercise);
-  else if (g_str_has_suffix(file, ".html")) page(text, exercise, scene);
-  else {
-    g_autofree char *json = object(exercise);
-    g_string_append_printf(text, "%s\n", json);
-  }
-  if (!spore_write_file(file, text->str, text->len, &error)) return spore_cli_fail(error);
-  spore_cli_say(cli, _("%s: the report of the exercise\n"), file);
-  return SPORE_EXIT_DONE;
+  else if (g_str_has_suffix(file, ".html")) page(text, exercise, title);
+  else object(text, exercise);
+  return g_string_free(text, FALSE);
 }
