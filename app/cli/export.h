@@ -50,6 +50,9 @@ void spore_export_lose_physics(SporeExport *export, gboolean colours);
 /* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
 gboolean spore_export_bundle(SporeExport *export, GError **error);
 gboolean spore_export_runtime(SporeExport *export, GError **error);
+gboolean spore_export_obj(SporeExport *export, GError **error);
+gboolean spore_export_ply(SporeExport *export, GError **error);
+gboolean spore_export_stl(SporeExport *export, GError **error);
 gboolean spore_export_vtk(SporeExport *export, GError **error);
 
 #endif

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <glib/gi18n.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -182,6 +183,35 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
   g_ptr_array_add(batch->entries, entry);
   int fault = write_temporary(entry, content, size);
   return fault ? spore_file_refuse(fault, place, error) : TRUE;
+}
+
+char *spore_file_target(const char *file) {
+  char *real = realpath(file, NULL);
+  char *target = g_strdup(real ? real : file);
+  free(real);
+  return target;
+}
+
+int spore_file_open_folder(const char *file, GError **error) {
+  g_autofree char *folder = g_path_get_dirname(file);
+  int directory = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0)
+    spore_error_raise(error, SPORE_ERROR_FILE, file,
+                      _("the folder \"%s\" cannot be opened: %s; nothing was changed; choose "
+                        "another place"),
+                      folder, g_strerror(errno));
+  return directory;
+}
+
+gboolean spore_file_batch_add_path(SporeFileBatch *batch, const char *file, const void *content, gsize size,
+                                   GError **error) {
+  g_autofree char *target = spore_file_target(file);
+  g_autofree char *name = g_path_get_basename(target);
+  int directory = spore_file_open_folder(target, error);
+  if (directory < 0) return FALSE;
+  gboolean done = spore_file_batch_add(batch, directory, file, name, content, size, error);
+  close(directory);
+  return done;
 }
 
 /* errno, or 0. */

@@ -25,6 +25,13 @@ void spore_file_batches_withdraw(void);
  * name leads out of `directory`. An existing file's permissions are kept. `place` begins the message of a failure. */
 gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
                               const void *content, gsize size, GError **error);
+/* Adds the file of that path, whose folder is there. */
+gboolean spore_file_batch_add_path(SporeFileBatch *batch, const char *file, const void *content, gsize size,
+                                   GError **error);
+/* The real target of a file name. Symbolic links are followed, so that they stay links. g_free. */
+char *spore_file_target(const char *file);
+/* Opens the folder that the file lies in. -1 with the error. */
+int spore_file_open_folder(const char *file, GError **error);
 /* Renames, in the order added. On failure everything is as before. */
 gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error);
 

@@ -13,35 +13,6 @@
 #include "core/io/scene_xml.h"
 #include "core/scene/needs.h"
 
-/* The real target of a file name. Symbolic links are followed, so that they stay links. g_free. */
-static char *real_target(const char *file) {
-  char *real = realpath(file, NULL);
-  char *target = g_strdup(real ? real : file);
-  free(real);
-  return target;
-}
-
-static int open_folder_of(const char *file, GError **error) {
-  g_autofree char *folder = g_path_get_dirname(file);
-  int directory = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory < 0)
-    spore_error_raise(error, SPORE_ERROR_FILE, file,
-                      _("the folder \"%s\" cannot be opened: %s; nothing was changed; choose "
-                        "another place"),
-                      folder, g_strerror(errno));
-  return directory;
-}
-
-static gboolean add_file(SporeFileBatch *batch, const char *file, const void *content, gsize size, GError **error) {
-  g_autofree char *target = real_target(file);
-  g_autofree char *name = g_path_get_basename(target);
-  int directory = open_folder_of(target, error);
-  if (directory < 0) return FALSE;
-  gboolean done = spore_file_batch_add(batch, directory, file, name, content, size, error);
-  close(directory);
-  return done;
-}
-
 /* Whether the file is a device or a pipe (/dev/stdout), which can neither be replaced nor taken back. */
 static gboolean is_stream(const char *file) {
   struct stat status;
@@ -60,7 +31,7 @@ static char *nearest_folder(const char *file) {
 }
 
 gboolean spore_file_may_be_written(const char *file, gboolean makes_folders, GError **error) {
-  g_autofree char *target = real_target(file);
+  g_autofree char *target = spore_file_target(file);
   g_autofree char *folder = makes_folders ? nearest_folder(target) : g_path_get_dirname(target);
   gboolean there = access(target, F_OK) == 0;
   if (!there || !is_stream(target)) {
@@ -89,7 +60,7 @@ static gboolean write_stream(const char *file, const char *content, gsize size, 
 gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error) {
   if (is_stream(file)) return write_stream(file, content, size, error);
   SporeFileBatch *batch = spore_file_batch_new();
-  gboolean done = add_file(batch, file, content, size, error) && spore_file_batch_commit(batch, error);
+  gboolean done = spore_file_batch_add_path(batch, file, content, size, error) && spore_file_batch_commit(batch, error);
   spore_file_batch_free(batch);
   return done;
 }
@@ -140,7 +111,7 @@ static gboolean save_asset(SporeDocument *document, SporeFileBatch *batch, int d
 
 static gboolean save_assets(SporeDocument *document, SporeFileBatch *batch, const char *scene, GHashTable *files,
                             GError **error) {
-  int directory = open_folder_of(scene, error);
+  int directory = spore_file_open_folder(scene, error);
   if (directory < 0) return FALSE;
   gboolean stays = same_folder(document, scene), done = TRUE;
   GHashTableIter iterator;
@@ -197,8 +168,8 @@ gboolean spore_scene_save(SporeDocument *document, const char *file, GError **er
   gsize size;
   g_autofree char *text = spore_scene_format_places(document, &size, places);
   SporeFileBatch *batch = spore_file_batch_new();
-  gboolean done = save_assets(document, batch, file, files, error) && add_file(batch, file, text, size, error) &&
-                  spore_file_batch_commit(batch, error);
+  gboolean done = save_assets(document, batch, file, files, error) &&
+                  spore_file_batch_add_path(batch, file, text, size, error) && spore_file_batch_commit(batch, error);
   spore_file_batch_free(batch);
   if (done) settle(document, file, files, places);
   return done;

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Scenes exported into files that other programs open. test_formats.py SPORE SCENES"""
+"""Scenes exported into files that other programs open. test_formats.py SPORE SCENES FEATURES"""
 import csv
 import json
+import math
 import os
 import pathlib
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -15,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import vtk_files
 from tap import Skip, check, is_sanitized, main, wait_for_work
 
-SPORE, SCENES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
+SPORE, SCENES, FEATURES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3].split(",")
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-formats-"))
 PYTHON = "/usr/bin/python3"  # Debian's, which sees Debian's VTK
 
@@ -154,6 +156,130 @@ def vtk_reads_every_shipped_scene(*_):
     assert kinds == {("vtkPolyData", vertex), ("vtkPolyData", line), ("vtkPolyData", triangle), ("vtkUnstructuredGrid", tetrahedron)}, kinds
 
 
+def obj_objects(file):
+    """Vertices and triangles (numbers within the object) of each object, by name; the materials they use; the file of these."""
+    objects, materials, library, before, all_vertices = {}, {}, None, 1, 0
+    for line in file.read_text().splitlines():
+        word, *rest = line.split()
+        if word == "mtllib":
+            library, = rest
+        elif word == "o":
+            name, before = rest[0], all_vertices + 1
+            objects[name] = ([], [])
+        elif word == "usemtl":
+            materials[name], = rest
+        elif word == "v":
+            objects[name][0].append(tuple(map(float, rest)))
+            all_vertices += 1
+        elif word == "f":
+            objects[name][1].append(tuple(int(x) - before for x in rest))
+    return objects, materials, library
+
+
+def volume(vertices, triangles):
+    return sum(determinant((0, 0, 0), *(vertices[i] for i in triangle)) for triangle in triangles) / 6
+
+
+def stl_triangles(file):
+    content = file.read_bytes()
+    count, = struct.unpack_from("<I", content, 80)
+    assert len(content) == 84 + 50 * count and b"metre" in content[:80]
+    rows = [struct.unpack_from("<12f", content, 84 + 50 * i) for i in range(count)]
+    return [(row[:3], (row[3:6], row[6:9], row[9:])) for row in rows]
+
+
+def ply_mesh(file):
+    head, content = file.read_bytes().split(b"end_header\n", 1)
+    assert head.startswith(b"ply\nformat binary_little_endian 1.0\n") and b"metre" in head
+    vertices, faces = (int(head.split(b"element " + kind)[1].split()[0]) for kind in (b"vertex", b"face"))
+    rows = list(struct.iter_unpack("<3f3B", content[:15 * vertices]))
+    triangles = list(struct.iter_unpack("<B3i", content[15 * vertices:]))
+    assert len(triangles) == faces and all(row[0] == 3 for row in triangles)
+    return [row[:3] for row in rows], [row[3:] for row in rows], [row[1:] for row in triangles]
+
+
+@check
+def surfaces_are_those_of_the_series(*_):
+    """OBJ, PLY and STL hold the surfaces of the same moment in the VTK series, with names and colours as far as they can"""
+    for scene in ("laparoscopy",):
+        (_, blocks), = export_vtk(scene, "--time", "0.02")
+        for form in ("obj", "ply", "stl"):
+            export(scene, form, FOLDER / f"s.{form}", "--time", "0.02")
+        objects, materials, library = obj_objects(FOLDER / "s.obj")
+        assert library == "s.mtl" and objects.keys() == blocks.keys() - {name for name in blocks if "+" in name}
+        colours = {part.split()[0]: [float(x) for x in part.split()[2:5]] for part in (FOLDER / "s.mtl").read_text().split("newmtl")[1:]}
+        places, tints, faces = ply_mesh(FOLDER / "s.ply")
+        flat, before = stl_triangles(FOLDER / "s.stl"), 0
+        surfaces = 0
+        for name, (vertices, triangles) in objects.items():
+            assert materials[name] == name and len(colours[name]) == 3
+            piece = vtk_files.Piece(blocks[name])
+            if ("Polys", "offsets") in piece.arrays and piece.arrays["Polys", "offsets"]:
+                surfaces += 1
+                assert [piece.points[i] for e in piece.elements for i in e] == [vertices[i] for t in triangles for i in t], name
+            first = sum(len(objects[other][0]) for other in list(objects)[:list(objects).index(name)])
+            assert tints[first] == tuple(int(255 * x + 0.5) for x in colours[name])
+            for t, ((normal, corners), face) in list(zip(triangles, zip(flat[before:], faces[before:])))[::5]:
+                for i, corner, number in zip(t, corners, face):
+                    assert all(abs(a - b) < 1e-7 for a, b in zip(vertices[i], corner))
+                    assert places[number] == corner
+                assert abs(math.hypot(*normal) - 1) < 1e-5 or normal == (0, 0, 0)
+            before += len(triangles)
+        assert before == len(flat) == len(faces) and surfaces >= 6
+
+
+def area(vertices, triangles):
+    sides = ([[q - p for p, q in zip(vertices[t[0]], vertices[t[k]])] for k in (1, 2)] for t in triangles)
+    return sum(math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) for a, b in sides) / 2
+
+
+@check
+def surfaces_come_back_by_import(*_):
+    """spore import reads OBJ with every body by name and the volume of each, and the same area of all three"""
+    if "assimp" not in FEATURES:
+        raise Skip("this build reads OFF alone")
+    for form in ("obj", "ply", "stl"):
+        export("plate4-deformed-ovary", form, FOLDER / f"plate4.{form}")
+    ours = obj_objects(FOLDER / "plate4.obj")[0]
+    for form in ("obj", "ply", "stl"):
+        split = ["--split", "parts"] if form == "obj" else ["--merge"]
+        report = json.loads(run(SPORE, "import", FOLDER / f"plate4.{form}", "--unit", "m", *split, "-o", FOLDER / "back" / f"{form}.spore", "--json"))
+        read = {mesh["body"]: mesh["as_read"] for mesh in report["meshes"]}
+        assert sum(one["triangles"] for one in read.values()) == sum(len(mesh[1]) for mesh in ours.values()), form
+        expected = sum(area(*mesh) for mesh in ours.values())
+        assert abs(sum(one["area_m2"] for one in read.values()) - expected) < 1e-5 * expected, form
+        if form == "obj":
+            closed = {name: one["volume_m3"] for name, one in read.items() if not one["boundary_edges"]}
+            assert read.keys() == ours.keys() and len(closed) >= 5
+            assert all(abs(cubic - volume(*ours[name])) < 1e-5 * cubic for name, cubic in closed.items()), closed
+
+
+@check
+def bodies_without_a_mesh_are_balls_tubes_and_skins(*_):
+    """What has no mesh is drawn as the editor does: spheres as balls, a line as a tube, a liquid as its skin, smoke not at all"""
+    shutil.copytree(SCENES / "minimal", FOLDER / "own" / "minimal")
+    text = (SCENES / "minimal.spore").read_text().replace('<visual mesh="floor" colour="0.46 0.43 0.42" wetness="0.1"/>', "")
+    (FOLDER / "own" / "bare.spore").write_text(text)
+    run(SPORE, "export", FOLDER / "own" / "bare.spore", "--format", "obj", "-o", FOLDER / "bare.obj")
+    spheres = [list(map(float, line.split())) for line in (SCENES / "minimal" / "floor.spheres").read_text().splitlines() if line[:1] not in "#"]
+    vertices, triangles = obj_objects(FOLDER / "bare.obj")[0]["floor"]
+    each, corners = len(triangles) // len(spheres), len(vertices) // len(spheres)
+    for i, (*centre, radius) in enumerate(spheres):
+        assert all(abs(math.dist(centre, at) - radius) < 1e-9 for at in vertices[corners * i:corners * (i + 1)])
+        ball = volume(vertices, triangles[each * i:each * (i + 1)])
+        assert 0.85 < ball / (4 / 3 * math.pi * radius ** 3) < 1, ball
+    for scene, body in (("plate5-string", "string"), ("plate3-blood", "blood")):
+        export(scene, "obj", FOLDER / "one.obj")
+        mesh = obj_objects(FOLDER / "one.obj")[0][body]
+        edges = {}
+        for t in mesh[1]:
+            for a, b in zip(t, t[1:] + t[:1]):
+                edges[a, b] = edges.get((a, b), 0) + 1
+        assert volume(*mesh) > 0 and all(edges.get((b, a)) == n for (a, b), n in edges.items()), "closed, outward"
+    report = export("plate7-steam", "obj", FOLDER / "one.obj")
+    assert "steam" not in obj_objects(FOLDER / "one.obj")[0] and any("steam" in word for word in report["lost"])
+
+
 @check
 def what_is_lost_is_said(*_):
     """What a format cannot hold is said, where the scene has it"""
@@ -183,7 +309,7 @@ def bad_input(*_):
     (FOLDER / "file").write_text("kept")
     for options, word in [(["--format", "vtk", "-o", target, "--every", "0.1"], "--time"), (["--format", "vtk", "-o", target, "--time", "x"], "--time"),
                           (["--format", "vtk", "-o", target, "--time", "1", "--every", "0.0015"], "no multiple"),
-                          (["--format", "vtk", "-o", target, "--time", "-1"], "0 s or more"), (["--format", "runtime", "-o", target, "--time", "1"], "--time"),
+                          (["--format", "vtk", "-o", target, "--time", "-1"], "0 s or more"), (["--format", "stl", "-o", target, "--time", "1", "--every", "0.1"], "--every"), (["--format", "runtime", "-o", target, "--time", "1"], "--time"),
                           (["--format", "vtk", "-o", FOLDER / "none" / "f"], "none"), (["--format", "vtk", "-o", FOLDER / "file"], "file")]:
         said = run(SPORE, "export", scene, *options, status=2)
         assert word in said and said.count("\n") == 1, said
@@ -201,8 +327,8 @@ def whole_or_not_at_all(*_):
     before = tree()
     scene = SCENES / "minimal.spore"
     limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-    for target in ("whole", "fresh"):
-        said = run(SPORE, "export", scene, "--format", "vtk", "-o", FOLDER / target, status=2, preexec_fn=limited)
+    for form, target in (("vtk", "whole"), ("vtk", "fresh"), ("obj", "fresh.obj"), ("ply", "fresh.ply"), ("stl", "fresh.stl")):
+        said = run(SPORE, "export", scene, "--format", form, "-o", FOLDER / target, status=2, preexec_fn=limited)
         assert "nothing was changed" in said and tree() == before, said
     for number in (signal.SIGINT, signal.SIGTERM):
         for target in ("whole", "fresh"):
