@@ -227,7 +227,10 @@ static void page(GString *text, const SporeExercise *exercise, const char *title
   g_string_append_printf(text, "</h1>\n<p>%s</p>\n<p>", _("For training and preview only."));
   g_string_append_printf(text, _("%zu of %zu steps done in %.2f s, score %.1f of 100"), state.steps_done, state.steps,
                          state.time_s, state.score);
-  if (state.tried) g_string_append_printf(text, "</p>\n<p>%s", _("A try-out: steps were skipped, and count as done."));
+  if (state.tried)
+    g_string_append_printf(
+        text, "</p>\n<p>%s",
+        _("A try-out: steps were skipped and count as done, or the scene was changed or pulled at meanwhile."));
   g_string_append(text, "</p>\n");
   plot_steps(text, exercise, &state);
   plot_metrics(text, exercise, &state);

@@ -294,6 +294,8 @@ void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world) {
 
 void spore_exercise_pause(SporeExercise *exercise, bool paused) { exercise->paused = paused; }
 
+void spore_exercise_try_out(SporeExercise *exercise) { exercise->tried = true; }
+
 void spore_exercise_skip_to(SporeExercise *exercise, size_t index) {
   assert(index < exercise->step_count);
   if (exercise->phase != SPORE_EXERCISE_RUNNING || exercise->steps[index].phase != SPORE_STEP_WAITING) return;
@@ -304,7 +306,7 @@ void spore_exercise_skip_to(SporeExercise *exercise, size_t index) {
     step->done_s = exercise->time_s;
     exercise->steps_done++;
   }
-  exercise->tried = true;
+  spore_exercise_try_out(exercise);
   open_steps(exercise);
 }
 
@@ -366,6 +368,8 @@ SporeMetricState spore_exercise_metric_state(const SporeExercise *exercise, size
   state.verdict = good ? SPORE_METRIC_GOOD : pass ? SPORE_METRIC_PASS : SPORE_METRIC_FAIL;
   return state;
 }
+
+SporeExercisePhase spore_exercise_phase(const SporeExercise *exercise) { return exercise->phase; }
 
 SporeExerciseState spore_exercise_state(const SporeExercise *exercise) {
   SporeExerciseState state = {.phase = exercise->phase,

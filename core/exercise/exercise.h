@@ -87,7 +87,9 @@ void spore_exercise_watch(SporeExercise *exercise, const SporeWorld *world);
 void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world);
 /* While it is paused nothing counts, and its clock stands still. */
 void spore_exercise_pause(SporeExercise *exercise, bool paused);
-/* For a try-out: what the step waits for counts as done from now on, so that the step is open. The world stays as it
+/* From now on it is a try-out, until it begins anew: the world is not what an attempt would find. */
+void spore_exercise_try_out(SporeExercise *exercise);
+/* Begins a try-out: what the step waits for counts as done from now on, so that the step is open. The world stays as it
  * is. Nothing happens where the step is open or done, or where the exercise has ended. */
 void spore_exercise_skip_to(SporeExercise *exercise, size_t step);
 
@@ -139,13 +141,14 @@ typedef struct SporeMetricState {
 typedef struct SporeExerciseState {
   SporeExercisePhase phase;
   bool paused;
-  bool tried;    /* steps were skipped since it began: a try-out */
+  bool tried;    /* a try-out: spore_exercise_try_out, spore_exercise_skip_to */
   double time_s; /* on the exercise's clock */
   size_t steps, steps_done, metrics;
   double score; /* 0 to 100: the share of the steps that are done, times the mean of the marks by weight */
   bool passed;  /* all steps are done, and no metric failed */
 } SporeExerciseState;
 
+SporeExercisePhase spore_exercise_phase(const SporeExercise *exercise);
 SporeExerciseState spore_exercise_state(const SporeExercise *exercise);
 SporeStepState spore_exercise_step_state(const SporeExercise *exercise, size_t step);
 SporeMetricState spore_exercise_metric_state(const SporeExercise *exercise, size_t metric);

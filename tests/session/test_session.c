@@ -225,6 +225,10 @@ static void test_exercise_equals_loop(Fixture *fixture, gconstpointer data) {
   play_past(session, STEPS);
   g_autofree char *played = report_of(session);
   g_assert_cmpstr(played, ==, expected);
+  SporeExerciseState attempt;
+  g_assert_true(spore_session_take_attempt(session, &attempt));
+  g_assert_cmpint(attempt.phase, ==, SPORE_EXERCISE_DONE);
+  g_assert_false(spore_session_take_attempt(session, &attempt));
   spore_session_reset(session);
   g_autofree char *anew = report_of(session);
   g_assert_cmpstr(anew, ==, start);
@@ -245,6 +249,10 @@ static void test_exercise_is_tried(Fixture *fixture, gconstpointer data) {
   spore_session_reset(session);
   g_autofree char *anew = report_of(session);
   g_assert_null(strstr(anew, "tried"));
+  const SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .body = 1, .number = 1};
+  spore_session_post(session, &pull);
+  g_autofree char *pulled = report_of(session);
+  g_assert_nonnull(strstr(pulled, "\"tried\" : true"));
   spore_session_free(session);
 }
 
@@ -256,7 +264,12 @@ static void test_exercise_carries_nothing_over(Fixture *fixture, gconstpointer d
   spore_session_carry_over(new, old);
   spore_session_step(new, 1);
   g_autofree char *report = report_of(new);
+  SporeExerciseState attempt;
+  g_assert_true(spore_session_take_attempt(old, &attempt));
+  spore_session_step(new, STEPS);
+  g_assert_false(spore_session_take_attempt(new, &attempt));
   g_assert_nonnull(strstr(report, "\"time_s\" : 0.001"));
+  g_assert_nonnull(strstr(report, "\"tried\" : true"));
   spore_session_free(old);
   spore_session_free(new);
 }

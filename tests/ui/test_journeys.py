@@ -1811,18 +1811,24 @@ def exercise_from_nothing():
         assert same == report.read_bytes(), (same, report.read_bytes())
         exercise = json.loads(same)["exercise"]
         assert exercise["phase"] == "done" and 0 < exercise["score"] < 100 and "tried" not in exercise, exercise
-        assert f": 2 of 2 steps, {exercise['time_s']:.2f} of 30 s, score {exercise['score']:.1f}, passed" in said, said
+        assert f": score {exercise['score']:.1f}, passed, 2 of 2 steps, {exercise['time_s']:.2f} of 30 s" in said, said
         assert "<svg" in report.with_suffix(".html").read_text() and "score,,," in report.with_suffix(".csv").read_text()
         editor.act("save-exercise", "s", str(report.with_suffix(".txt")))
         ui.wait(lambda: "expected .csv, .json or .html" in (editor.message() or ""), "the refusal of another kind of file")
+        kept = f"score {exercise['score']:.1f}, {exercise['time_s']:.2f} s, 2 of 2 steps, passed$"
+        editor.find("label", kept, showing=False)
         editor.act("reset")
-        ui.wait(lambda: shown(editor, "^Under way: 0 of 2 steps, 0.00 of 30 s"), "a new beginning")
+        ui.wait(lambda: shown(editor, "^Under way: score 0.0, 0 of 2 steps, 0.00 of 30 s"), "a new beginning")
         editor.act("select", "s", "exercise/reached")
         editor.act("skip-to-step")
-        ui.wait(lambda: shown(editor, "^Try-out: 1 of 2 steps"), "the try-out")
+        ui.wait(lambda: shown(editor, "^Try-out: .*, 1 of 2 steps"), "the try-out")
         editor.find("label", "^Draw it back.$")
         editor.act("remove-part")
         ui.wait(lambda: not editor.look("label", "^2. Reached"), "the step to go")
+        editor.act("undo")
+        editor.act("open", "s", str(scene))
+        ui.wait(lambda: shown(editor, "^Begin plays the scene"), "the scene to be opened again")
+        editor.find("label", kept, showing=False)
 
 
 @check

@@ -8,6 +8,8 @@
 #include "core/author/exercise_report.h"
 #include "core/exercise/event.h"
 #include "core/io/scene_xml.h"
+#include "ui/document/attempts.h"
+#include "ui/panels/attempt-list.h"
 #include "ui/panels/exercise-rows.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-property-row.h"
@@ -16,11 +18,13 @@
 
 struct _SporeExercisePanel {
   GtkBox parent;
-  GtkWidget *state, *told, *play, *content, *columns, *steps, *metrics, *heads, *settings, *add_step, *add_metric;
+  GtkWidget *state, *told, *play, *content, *columns, *steps, *metrics, *heads, *settings, *attempt_list, *add_step,
+      *add_metric;
   GtkSizeGroup *widths[SPORE_METRIC_COLUMNS];
   SporeEditorDocument *document;
   SporePlayer *player;
   guint timer, rebuild;
+  GArray *attempts;   /* of SporeAttempt, at this scene */
   gboolean selecting; /* the selection of the document is being shown */
 };
 
@@ -88,10 +92,10 @@ static char *run_text(SporeExercisePanel *self, const Look *look) {
   const SporeExerciseState *state = &look->state;
   g_autofree char *clock = clock_text(self, state->time_s);
   g_autoptr(GString) text = g_string_new(state->tried ? _("Try-out") : _(phases[state->phase]));
-  g_string_append_printf(text, _(": %zu of %zu steps, %s, score %.1f"), state->steps_done, state->steps, clock,
-                         state->score);
+  g_string_append_printf(text, _(": score %.1f"), state->score);
   if (state->phase != SPORE_EXERCISE_RUNNING)
     g_string_append_printf(text, ", %s", state->passed ? _("passed") : _("not passed"));
+  g_string_append_printf(text, _(", %zu of %zu steps, %s"), state->steps_done, state->steps, clock);
   return g_strdup(text->str);
 }
 
@@ -134,8 +138,22 @@ static void show_run(SporeExercisePanel *self) {
   }
 }
 
+/* Keeps an attempt that has ended, whether the panel is seen or not. */
+static void keep_attempt(SporeExercisePanel *self) {
+  SporeSession *session = session_of(self);
+  SporeExerciseState state;
+  g_autoptr(GError) error = NULL;
+  if (!session || !spore_session_take_attempt(session, &state)) return;
+  SporeAttempt attempt = spore_attempt_of(&state);
+  const char *file = spore_editor_document_get_save_file(self->document);
+  g_array_append_val(self->attempts, attempt);
+  spore_fill_attempt_list(GTK_BOX(self->attempt_list), self->attempts);
+  if (file && !spore_attempts_add(file, &attempt, &error)) spore_report(GTK_WIDGET(self), error);
+}
+
 static gboolean tick(gpointer data) {
   SporeExercisePanel *self = data;
+  if (self->document) keep_attempt(self);
   if (self->document && gtk_widget_get_mapped(GTK_WIDGET(self))) show_run(self);
   return G_SOURCE_CONTINUE;
 }
@@ -250,6 +268,9 @@ void spore_exercise_panel_set_document(SporeExercisePanel *self, SporeEditorDocu
   g_signal_connect_object(document, "changed", G_CALLBACK(queue), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
+  g_clear_pointer(&self->attempts, g_array_unref);
+  self->attempts = spore_attempts_read(spore_editor_document_get_save_file(document));
+  spore_fill_attempt_list(GTK_BOX(self->attempt_list), self->attempts);
   build_settings(self);
   build_again(self);
 }
@@ -320,6 +341,7 @@ static void spore_exercise_panel_dispose(GObject *object) {
   SporeExercisePanel *self = SPORE_EXERCISE_PANEL(object);
   g_clear_handle_id(&self->timer, g_source_remove);
   release_document(self);
+  g_clear_pointer(&self->attempts, g_array_unref);
   for (guint i = 0; i < SPORE_METRIC_COLUMNS; i++) g_clear_object(&self->widths[i]);
   G_OBJECT_CLASS(spore_exercise_panel_parent_class)->dispose(object);
 }
@@ -337,6 +359,7 @@ static void spore_exercise_panel_class_init(SporeExercisePanelClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeExercisePanel, metrics);
   gtk_widget_class_bind_template_child(widget, SporeExercisePanel, heads);
   gtk_widget_class_bind_template_child(widget, SporeExercisePanel, settings);
+  gtk_widget_class_bind_template_child(widget, SporeExercisePanel, attempt_list);
   gtk_widget_class_bind_template_child(widget, SporeExercisePanel, add_step);
   gtk_widget_class_bind_template_child(widget, SporeExercisePanel, add_metric);
   gtk_widget_class_bind_template_callback(widget, row_selected);

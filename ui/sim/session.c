@@ -69,6 +69,8 @@ struct SporeSession {
   SporeSessionFigures figures;
   SporeNumbers numbers;
   guint64 stride; /* steps a row */
+  gboolean has_attempt;
+  SporeExerciseState attempt; /* the last that ended and was not taken */
 
   /* The thread's own; another thread only where the first one stands. */
   SporeMeasurement *measurement;
@@ -271,8 +273,14 @@ static void keep_measured(SporeSession *session, const Measured *measured) {
 /* With the mutex held, like all that is done to the exercise. An ended step leaves the state before it. */
 static void watch_exercise(SporeSession *session) {
   const SporeSimulation *simulation = session->simulation;
-  if (simulation->exercise && !spore_world_cancelled(simulation->world))
-    spore_exercise_watch(simulation->exercise, simulation->world);
+  SporeExercise *exercise = simulation->exercise;
+  if (!exercise || spore_world_cancelled(simulation->world)) return;
+  gboolean running = spore_exercise_phase(exercise) == SPORE_EXERCISE_RUNNING;
+  spore_exercise_watch(exercise, simulation->world);
+  if (!running || spore_exercise_phase(exercise) == SPORE_EXERCISE_RUNNING) return;
+  SporeExerciseState state = spore_exercise_state(exercise);
+  session->has_attempt |= !state.tried;
+  if (!state.tried) session->attempt = state;
 }
 
 static void restart_exercise(SporeSession *session) {
@@ -523,6 +531,7 @@ gboolean spore_session_try_reset(SporeSession *session) {
 void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
   spore_simulation_carry_over(to->simulation, from->simulation);
   restart_exercise(to); /* of the state that it begins with */
+  spore_session_try_out(to);
   start_measuring(to);
 }
 
@@ -540,6 +549,7 @@ const SporeSnapshot *spore_session_snapshot(SporeSession *session) {
 }
 
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command) {
+  spore_session_try_out(session);
   return spore_world_post(session->simulation->world, command);
 }
 
@@ -642,6 +652,22 @@ gboolean spore_session_read_exercise(SporeSession *session, SporeExerciseReader 
   read(exercise, data);
   g_mutex_unlock(&session->mutex);
   return TRUE;
+}
+
+gboolean spore_session_take_attempt(SporeSession *session, SporeExerciseState *state) {
+  g_mutex_lock(&session->mutex);
+  gboolean has = session->has_attempt;
+  *state = session->attempt;
+  session->has_attempt = FALSE;
+  g_mutex_unlock(&session->mutex);
+  return has;
+}
+
+void spore_session_try_out(SporeSession *session) {
+  SporeExercise *exercise = session->simulation->exercise;
+  g_mutex_lock(&session->mutex);
+  if (exercise) spore_exercise_try_out(exercise);
+  g_mutex_unlock(&session->mutex);
 }
 
 gboolean spore_session_skip_to(SporeSession *session, gsize step) {

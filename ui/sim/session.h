@@ -30,13 +30,15 @@ gboolean spore_session_try_step(SporeSession *session, guint steps);
 void spore_session_reset(SporeSession *session);
 /* The same, but returns soon. FALSE: the session is still on its way to time 0. */
 gboolean spore_session_try_reset(SporeSession *session);
-/* Copies the state of bodies that both sessions have, by name, into a session that is not running. */
+/* Copies the state of bodies that both sessions have, by name, into a session that is not running. Its exercise is a
+ * try-out. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
 double spore_session_get_speed(const SporeSession *session);
 
 /* Newest state. Valid until the next call. One reader: the GTK thread. */
 const SporeSnapshot *spore_session_snapshot(SporeSession *session);
+/* What a command does makes the exercise a try-out. */
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
 /* Where the mouse holds the active body `body`. From then on the mouse moves that body, and not its track, until a
  * reset. */
@@ -61,6 +63,11 @@ SporeSessionFigures spore_session_figures(SporeSession *session);
  */
 typedef void (*SporeExerciseReader)(const SporeExercise *exercise, gpointer data);
 gboolean spore_session_read_exercise(SporeSession *session, SporeExerciseReader read, gpointer data);
+/* How an attempt ended, once for each: an exercise from time 0 on that was no try-out. Of those that ended since the
+ * last call, the last one. FALSE: none did. */
+gboolean spore_session_take_attempt(SporeSession *session, SporeExerciseState *state);
+/* The scene was changed: the exercise, if there is one, is a try-out until a reset. */
+void spore_session_try_out(SporeSession *session);
 /* spore_exercise_skip_to, between two steps. FALSE: the exercise has no such step. */
 gboolean spore_session_skip_to(SporeSession *session, gsize step);
 

@@ -130,8 +130,10 @@ static gboolean apply(SporePlayer *self, SporeObject *object, guint property) {
   const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
   SporeSimulation *simulation = (SporeSimulation *)spore_session_simulation(self->session);
   if (!spore_player_is_making(self) &&
-      spore_simulation_apply(simulation, spore_editor_document_get(self->document), object, property))
+      spore_simulation_apply(simulation, spore_editor_document_get(self->document), object, property)) {
+    spore_session_try_out(self->session);
     return TRUE;
+  }
   if (parameter->change == SPORE_CHANGE_RESTART) self->from_start = TRUE;
   return FALSE;
 }

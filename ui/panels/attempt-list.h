@@ -1,0 +1,10 @@
+/* The list of attempts at an exercise, newest first. */
+#ifndef SPORE_UI_PANELS_ATTEMPT_LIST_H
+#define SPORE_UI_PANELS_ATTEMPT_LIST_H
+
+#include <gtk/gtk.h>
+
+/* Fills the box in place of what it shows. attempts: of SporeAttempt, oldest first. */
+void spore_fill_attempt_list(GtkBox *box, const GArray *attempts);
+
+#endif
