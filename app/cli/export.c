@@ -37,6 +37,10 @@ static const ExportFormat formats[] = {
      N_("a series over time that ParaView opens, -o F.pvd or a folder: surfaces, tetrahedra with displacement and "
         "strain, lines, particles, all with velocities"),
      spore_export_vtk},
+    {"gltf", EXPORT_SERIES,
+     N_("one .glb file: surfaces with materials; over time, rigid bodies as tracks, others as morph targets of few key "
+        "frames"),
+     spore_export_gltf},
     {"obj", EXPORT_ONE_MOMENT,
      N_("the surfaces at a moment, in metres: an object for each body, and F.mtl with the colours"), spore_export_obj},
     {"ply", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh with colours"), spore_export_ply},

@@ -47,9 +47,13 @@ gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointe
 /* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */
 void spore_export_lose_physics(SporeExport *export, gboolean colours);
 
+/* Says that there is nothing to write. Returns FALSE. */
+gboolean spore_export_refuse_empty(const SporeExport *export, GError **error);
+
 /* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
 gboolean spore_export_bundle(SporeExport *export, GError **error);
 gboolean spore_export_runtime(SporeExport *export, GError **error);
+gboolean spore_export_gltf(SporeExport *export, GError **error);
 gboolean spore_export_obj(SporeExport *export, GError **error);
 gboolean spore_export_ply(SporeExport *export, GError **error);
 gboolean spore_export_stl(SporeExport *export, GError **error);

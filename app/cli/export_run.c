@@ -80,3 +80,8 @@ void spore_export_lose_physics(SporeExport *export, gboolean colours) {
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
 }
+
+gboolean spore_export_refuse_empty(const SporeExport *export, GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_INPUT, export->output,
+                           _("the scene shows no surface; expected a body that has one; add one"));
+}

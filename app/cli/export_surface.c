@@ -47,9 +47,7 @@ static gboolean write_surfaces(SporeExport *export, SurfaceWriter write, gboolea
   Surfaces surfaces = {export, g_array_new(FALSE, FALSE, sizeof(SporeNamedSurface))};
   g_array_set_clear_func(surfaces.all, clear_surface);
   gboolean done = spore_export_run(export, take_surfaces, &surfaces, error);
-  if (done && !surfaces.all->len)
-    done = spore_error_raise(error, SPORE_ERROR_INPUT, export->output,
-                             _("the scene shows no surface; expected a body that has one; add one"));
+  if (done && !surfaces.all->len) done = spore_export_refuse_empty(export, error);
   done = done && write(export, (const SporeNamedSurface *)(gconstpointer)surfaces.all->data, surfaces.all->len, error);
   g_array_unref(surfaces.all);
   spore_export_lose(export, g_strdup(_("motion: one moment is shown, without velocities")));

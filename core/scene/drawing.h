@@ -60,7 +60,11 @@ const SporeDrawnPart *spore_drawing_part(const SporeDrawing *drawing, guint i);
  * ball for each other point. Only vertices that triangles use. *mesh: spore_triangle_mesh_clear; empty where nothing is
  * left to show. FALSE: no memory. */
 gboolean spore_drawn_part_mesh(const SporeDrawnPart *part, SporeTriangleMesh *mesh, GError **error);
-/* The same with vertices in the frame of a framed part. */
+/* The same, and which of the part's points each vertex is. *points: mesh->vertex_count, g_free; NULL: the vertices are
+ * no points of the part, as of tubes, balls and skins. */
+gboolean spore_drawn_part_mesh_of_points(const SporeDrawnPart *part, SporeTriangleMesh *mesh, guint32 **points,
+                                         GError **error);
+/* The same as the first with vertices in the frame of a framed part. */
 gboolean spore_drawn_part_local_mesh(const SporeDrawnPart *part, SporeTriangleMesh *mesh, GError **error);
 
 #endif

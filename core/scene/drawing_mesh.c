@@ -10,9 +10,9 @@
 #define BALL_RINGS 8
 #define BALL_SECTORS 12
 
-/* Copies the triangles with the vertices that they use, in their order. */
+/* Copies the triangles with the vertices that they use, in their order. *points: which these are, g_free. */
 static bool copy_used(const double *positions, gsize count, const guint32 *triangles, gsize triangle_count,
-                      SporeTriangleMesh *mesh, SporeError *fault) {
+                      SporeTriangleMesh *mesh, guint32 **points, SporeError *fault) {
   g_autofree guint32 *number = g_new0(guint32, count + 1);
   gsize used = 0;
   for (gsize i = 0; i < 3 * triangle_count; i++) number[triangles[i]] = 1;
@@ -20,17 +20,19 @@ static bool copy_used(const double *positions, gsize count, const guint32 *trian
   *mesh = (SporeTriangleMesh){0};
   if (!used) return true;
   if (!spore_triangle_mesh_allocate(mesh, used, triangle_count, fault)) return false;
+  *points = g_new(guint32, used);
   used = 0;
   for (gsize i = 0; i < count; i++) {
     if (!number[i]) continue;
     memcpy(mesh->vertices + 3 * used, positions + 3 * i, 3 * sizeof *positions);
+    (*points)[used] = (guint32)i;
     number[i] = (guint32)used++;
   }
   for (gsize i = 0; i < 3 * triangle_count; i++) mesh->triangles[i] = number[triangles[i]];
   return true;
 }
 
-static bool boundary_of(const SporeDrawnPart *part, const double *positions, SporeTriangleMesh *mesh,
+static bool boundary_of(const SporeDrawnPart *part, const double *positions, SporeTriangleMesh *mesh, guint32 **points,
                         SporeError *fault) {
   const SporeTetrahedralMesh cells = {.vertex_count = part->count,
                                       .tetrahedron_count = part->element_count,
@@ -40,7 +42,7 @@ static bool boundary_of(const SporeDrawnPart *part, const double *positions, Spo
   gsize count = 0;
   bool done = spore_tetrahedral_mesh_boundary(&cells, &triangles, &count);
   if (!done) spore_error_set(fault, SPORE_ERROR_MEMORY, NULL, _("not enough memory for its drawn vertices"));
-  done = done && copy_used(positions, part->count, triangles, count, mesh, fault);
+  done = done && copy_used(positions, part->count, triangles, count, mesh, points, fault);
   spore_free(triangles);
   return done;
 }
@@ -93,15 +95,16 @@ static bool balls_of(const SporeDrawnPart *part, const double *positions, SporeT
 }
 
 static gboolean make_mesh(const SporeDrawnPart *part, const double *positions, SporeTriangleMesh *mesh,
-                          GError **error) {
+                          guint32 **points, GError **error) {
+  *points = NULL;
   SporeError fault = SPORE_ERROR_INIT;
   bool done = false;
   switch (part->kind) {
   case SPORE_PART_SURFACE:
-    done = copy_used(positions, part->count, part->elements, part->element_count, mesh, &fault);
+    done = copy_used(positions, part->count, part->elements, part->element_count, mesh, points, &fault);
     break;
   case SPORE_PART_CELLS:
-    done = boundary_of(part, positions, mesh, &fault);
+    done = boundary_of(part, positions, mesh, points, &fault);
     break;
   case SPORE_PART_LINE:
     done = tube_of(part, positions, mesh, &fault);
@@ -115,11 +118,18 @@ static gboolean make_mesh(const SporeDrawnPart *part, const double *positions, S
   return done || spore_drawn_part_refuse(part, &fault, error);
 }
 
+gboolean spore_drawn_part_mesh_of_points(const SporeDrawnPart *part, SporeTriangleMesh *mesh, guint32 **points,
+                                         GError **error) {
+  return make_mesh(part, part->positions, mesh, points, error);
+}
+
 gboolean spore_drawn_part_mesh(const SporeDrawnPart *part, SporeTriangleMesh *mesh, GError **error) {
-  return make_mesh(part, part->positions, mesh, error);
+  g_autofree guint32 *points = NULL;
+  return make_mesh(part, part->positions, mesh, &points, error);
 }
 
 gboolean spore_drawn_part_local_mesh(const SporeDrawnPart *part, SporeTriangleMesh *mesh, GError **error) {
+  g_autofree guint32 *points = NULL;
   g_assert(part->framed);
-  return make_mesh(part, part->source->points, mesh, error);
+  return make_mesh(part, part->source->points, mesh, &points, error);
 }

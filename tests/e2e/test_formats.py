@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Scenes exported into files that other programs open. test_formats.py SPORE SCENES FEATURES"""
+import array
 import csv
 import json
 import math
@@ -280,6 +281,149 @@ def bodies_without_a_mesh_are_balls_tubes_and_skins(*_):
     assert "steam" not in obj_objects(FOLDER / "one.obj")[0] and any("steam" in word for word in report["lost"])
 
 
+class Film:
+    """A .glb file, read apart from any library: where the vertices of each node are at a time."""
+
+    def __init__(self, file):
+        content = file.read_bytes()
+        magic, version, size, length, kind = struct.unpack_from("<4sIII4s", content)
+        assert (magic, version, size, kind) == (b"glTF", 2, len(content), b"JSON")
+        self.json = json.loads(content[20:20 + length])
+        size, kind = struct.unpack_from("<I4s", content, 20 + length)
+        self.numbers = content[28 + length:]
+        assert kind == b"BIN\0" and size == len(self.numbers) == self.json["buffers"][0]["byteLength"]
+        self.nodes = {node["name"]: number for number, node in enumerate(self.json["nodes"])}
+        self.tracks, read = {}, {}
+        for animation in self.json.get("animations", []):
+            for channel in animation["channels"]:
+                sampler = animation["samplers"][channel["sampler"]]
+                rows = [read.setdefault(sampler[way], self.rows(sampler[way])) for way in ("input", "output")]
+                self.tracks[channel["target"]["node"], channel["target"]["path"]] = rows
+
+    def rows(self, accessor):
+        one = self.json["accessors"][accessor]
+        view = self.json["bufferViews"][one["bufferView"]]
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[one["type"]]
+        numbers = array.array("I" if one["componentType"] == 5125 else "f", self.numbers[view["byteOffset"]:view["byteOffset"] + view["byteLength"]])
+        assert len(numbers) == width * one["count"]
+        rows = list(zip(*[iter(numbers)] * width))
+        if "min" in one:
+            assert all(abs(low(x) - y) <= 1e-6 * abs(y) for x, y, low in zip(zip(*rows), one["min"], [min] * width))
+        return rows
+
+    def mesh(self, name):
+        return self.json["meshes"][self.json["nodes"][self.nodes[name]]["mesh"]]["primitives"][0]
+
+    def keys(self, name):
+        """Number of key frames of a body that changes its shape."""
+        return 1 + len(self.mesh(name).get("targets", []))
+
+    def at(self, name, time):
+        number = self.nodes[name]
+        node, primitive = self.json["nodes"][number], self.mesh(name)
+        vertices = self.rows(primitive["attributes"]["POSITION"])
+        if (number, "weights") in self.tracks:
+            vertices = self.bent(vertices, primitive, *self.tracks[number, "weights"], time)
+        place, turn = node["translation"], node["rotation"]
+        if (number, "rotation") in self.tracks:  # asked for at the times of the file alone: nothing lies between them
+            times, places = self.tracks[number, "translation"]
+            at = min(range(len(times)), key=lambda i: abs(times[i][0] - time))
+            assert abs(times[at][0] - time) < 1e-6
+            place, turn = places[at], self.tracks[number, "rotation"][1][at]
+        x, y, z, w = turn
+        rows = ((1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)), (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+                (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)))
+        return [[sum(a * b for a, b in zip(row, v)) + p for row, p in zip(rows, place)] for v in vertices]
+
+    def bent(self, vertices, primitive, times, weights, time):
+        """By the linear interpolation of the weights."""
+        targets, times = primitive["targets"], [row[0] for row in times]
+        weights = [[row[0] for row in weights[k:k + len(targets)]] for k in range(0, len(weights), len(targets))]
+        assert len(weights) == len(times) == len(targets) + 1
+        after = next((i for i, t in enumerate(times) if t >= time - 1e-7), len(times) - 1)
+        before = max(after - 1, 0)
+        part = (time - times[before]) / (times[after] - times[before]) if after > before else 0
+        for k, target in enumerate(targets):
+            weight = weights[before][k] + part * (weights[after][k] - weights[before][k])
+            if abs(weight) > 1e-12:
+                vertices = [[a + weight * b for a, b in zip(v, d)] for v, d in zip(vertices, self.rows(target["POSITION"]))]
+        return vertices
+
+
+@check
+def a_film_moves_as_the_series(*_):
+    """glTF: at each moment of the VTK series every body is within the error that is told, and rigid ones are where they were"""
+    for scene, seconds, rigid, soft in (("plate4-deformed-ovary", "0.3", ["probe", "uterus"], ["ovary_right"]),
+                                        ("laparoscopy", "0.24", ["endoscope"], ["ligament_right", "tube_left"])):
+        how = ["--time", seconds, "--every", "0.02"]
+        moments, report = export_vtk(scene, *how), export(scene, "gltf", FOLDER / "film.glb", *how)
+        film = Film(FOLDER / "film.glb")
+        told = {one["body"]: one for one in report["animation"]}
+        for name in rigid + soft:
+            worst = 0
+            for time, blocks in moments:
+                points, ours = vtk_files.Piece(blocks[name]).points, film.at(name, time)
+                assert len(points) == len(ours)
+                worst = max(worst, *(math.dist(p, q) for p, q in zip(points, ours)))
+            error = told[name]["error_m"] if name in soft else 0
+            assert abs(worst - error) < 2e-7, (name, worst, error)
+            if name in soft:
+                assert error <= told[name]["bound_m"] and film.keys(name) == told[name]["keys"] <= len(moments)
+        assert any(one["keys"] < len(moments) and one["error_m"] > 1e-6 for one in told.values()), told
+        assert any((film.nodes[name], "rotation") in film.tracks for name in rigid)
+
+
+@check
+def a_validator_and_an_importer_read_films(*_):
+    """glTF: the validator of the Khronos Group finds nothing, and spore import the bodies with names, colours and areas"""
+    files = []
+    scenes = sorted(path.stem for path in SCENES.glob("*.spore"))
+    for scene in scenes[::4] if is_sanitized(SPORE) else scenes:
+        files.append(FOLDER / f"{scene}.glb")
+        step = float(json.loads(run(SPORE, "run", SCENES / f"{scene}.spore", "-n", "1", "--json"))["time_s"])
+        export(scene, "gltf", files[-1], *(["--time", repr(20 * step), "--every", repr(10 * step)] if len(files) % 2 else []))
+        Film(files[-1])
+    if "assimp" in FEATURES:
+        export("plate4-deformed-ovary", "obj", FOLDER / "film.obj")
+        ours = obj_objects(FOLDER / "film.obj")[0]
+        export("plate4-deformed-ovary", "gltf", FOLDER / "film.glb")
+        report = json.loads(run(SPORE, "import", FOLDER / "film.glb", "--unit", "m", "--split", "parts", "-o", FOLDER / "back" / "film.spore", "--json"))
+        colours = {part.split()[0]: [float(x) for x in part.split()[2:5]] for part in (FOLDER / "film.mtl").read_text().split("newmtl")[1:]}
+        assert {mesh["body"] for mesh in report["meshes"]} == ours.keys()
+        for mesh in report["meshes"]:
+            expected = area(*ours[mesh["body"]])
+            assert abs(mesh["as_read"]["area_m2"] - expected) < 1e-5 * expected, mesh
+            assert all(abs(a - b) < 0.005 for a, b in zip(mesh["colour"], colours[mesh["body"]], strict=True)), (mesh, colours)
+    validate(files)
+
+
+VALIDATE = """
+const validator = require("gltf-validator"), fs = require("fs");
+(async () => {
+  for (const file of process.argv.slice(1)) {
+    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)));
+    const {numErrors, numWarnings, messages} = report.issues;
+    if (numErrors + numWarnings || report.truncated) console.log(file, JSON.stringify(messages.slice(0, 3)));
+  }
+  console.log("validated", process.argv.length - 1);
+})();
+"""
+
+
+def validate(files):
+    try:
+        paths = subprocess.run(["npm", "root", "-g"], capture_output=True, text=True, check=True, timeout=60).stdout.strip()
+        where = {**os.environ, "NODE_PATH": paths}
+        subprocess.run(["node", "-e", 'require("gltf-validator")'], env=where, capture_output=True, check=True, timeout=60)
+    except (OSError, subprocess.SubprocessError) as missing:
+        raise Skip("gltf-validator is not installed: npm install -g gltf-validator") from missing
+    said = run("node", "-e", VALIDATE, *files, env=where)
+    assert said == f"validated {len(files)}\n", said
+    broken = FOLDER / "broken.glb"
+    broken.write_bytes(files[0].read_bytes().replace(b'"componentType":5125', b'"componentType":5126', 1))
+    assert "broken.glb" in run("node", "-e", VALIDATE, broken, env=where)
+
+
 @check
 def what_is_lost_is_said(*_):
     """What a format cannot hold is said, where the scene has it"""
@@ -310,7 +454,7 @@ def bad_input(*_):
     for options, word in [(["--format", "vtk", "-o", target, "--every", "0.1"], "--time"), (["--format", "vtk", "-o", target, "--time", "x"], "--time"),
                           (["--format", "vtk", "-o", target, "--time", "1", "--every", "0.0015"], "no multiple"),
                           (["--format", "vtk", "-o", target, "--time", "-1"], "0 s or more"), (["--format", "stl", "-o", target, "--time", "1", "--every", "0.1"], "--every"), (["--format", "runtime", "-o", target, "--time", "1"], "--time"),
-                          (["--format", "vtk", "-o", FOLDER / "none" / "f"], "none"), (["--format", "vtk", "-o", FOLDER / "file"], "file")]:
+                          (["--format", "gltf", "-o", FOLDER / "bad.gltf"], ".glb"), (["--format", "vtk", "-o", FOLDER / "none" / "f"], "none"), (["--format", "vtk", "-o", FOLDER / "file"], "file")]:
         said = run(SPORE, "export", scene, *options, status=2)
         assert word in said and said.count("\n") == 1, said
         assert not target.exists() and not (FOLDER / "none").exists() and (FOLDER / "file").read_text() == "kept"
@@ -327,7 +471,7 @@ def whole_or_not_at_all(*_):
     before = tree()
     scene = SCENES / "minimal.spore"
     limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-    for form, target in (("vtk", "whole"), ("vtk", "fresh"), ("obj", "fresh.obj"), ("ply", "fresh.ply"), ("stl", "fresh.stl")):
+    for form, target in (("vtk", "whole"), ("vtk", "fresh"), ("obj", "fresh.obj"), ("ply", "fresh.ply"), ("stl", "fresh.stl"), ("gltf", "fresh.glb")):
         said = run(SPORE, "export", scene, "--format", form, "-o", FOLDER / target, status=2, preexec_fn=limited)
         assert "nothing was changed" in said and tree() == before, said
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -9,8 +9,6 @@ static const unsigned char stops[STOPS][3] = {{68, 1, 84},    {71, 45, 123},  {5
                                               {44, 114, 142}, {33, 145, 140}, {40, 174, 128},
                                               {94, 201, 98},  {173, 220, 48}, {253, 231, 37}};
 
-double spore_linear_light(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4); }
-
 void spore_colour_scale(double value, double srgb[3]) {
   double place = CLAMP(value, 0, 1) * (STOPS - 1);
   int below = MIN((int)place, STOPS - 2);

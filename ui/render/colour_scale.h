@@ -3,10 +3,10 @@
 #ifndef SPORE_UI_RENDER_COLOUR_SCALE_H
 #define SPORE_UI_RENDER_COLOUR_SCALE_H
 
+#include "core/math/colour.h"
+
 /* value 0..1, clamped; sRGB 0..1. */
 void spore_colour_scale(double value, double srgb[3]);
-/* One channel from sRGB to linear light. */
-double spore_linear_light(double srgb);
 /* Declaration of `vec3 scale_colour(float value)`, linear light, for a shader. g_free. */
 char *spore_colour_scale_shader(void);
 
