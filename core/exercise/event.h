@@ -30,7 +30,6 @@ typedef struct SporeEventKind {
   const char *doc;                /* one sentence, translatable */
   SporeParameterTable parameters; /* of SporeEventFields */
   bool needs_body;                /* it means nothing without a body */
-  bool needs_tool;                /* it means nothing without an instrument that a tool of this kind is */
   bool lasting;                   /* what happened cannot be undone: early is an error */
   /* Whether the event is there after the last step, by an instrument; SPORE_NO_PART: by none. */
   bool (*happens)(const struct SporeExercise *exercise, struct SporeStepRun *step, const SporeWorld *world,
@@ -40,5 +39,7 @@ typedef struct SporeEventKind {
 extern const SporeEventKind *const spore_event_kinds[]; /* NULL at the end */
 /* The kind of that element; NULL: there is none. */
 const SporeEventKind *spore_event_kind_find(const char *element);
+/* Whether an instrument of that element ("probe") can do it. */
+bool spore_event_kind_allows(const SporeEventKind *kind, const char *tool);
 
 #endif

@@ -62,7 +62,6 @@ static const SporeEventKind grasped = {.element = "grasped",
                                        .doc = N_("Jaws hold a body."),
                                        .parameters = SPORE_TABLE(grasped_rows, SporeEventFields),
                                        .needs_body = true,
-                                       .needs_tool = true,
                                        .happens = is_grasped};
 
 static const SporeParameter clamped_rows[] = {NAMED, TOOL("clamp"), BODY};
@@ -71,7 +70,6 @@ static const SporeEventKind clamped = {.element = "clamped",
                                        .doc = N_("A clamp or a clip holds a body."),
                                        .parameters = SPORE_TABLE(clamped_rows, SporeEventFields),
                                        .needs_body = true,
-                                       .needs_tool = true,
                                        .happens = is_grasped};
 
 static const SporeParameter held_rows[] = {NAMED, TOOL("grasper|clamp"), BODY,
@@ -81,15 +79,16 @@ static const SporeEventKind held = {.element = "held",
                                     .doc = N_("Jaws hold a body for a time."),
                                     .parameters = SPORE_TABLE(held_rows, SporeEventFields),
                                     .needs_body = true,
-                                    .needs_tool = true,
                                     .happens = is_grasped};
 
 static bool is_lifted(Exercise exercise, SporeStepRun *step, const SporeWorld *world, uint32_t instrument) {
-  bool holds = is_held(exercise, world, instrument, step->from.body);
   SporeVec3 middle = spore_body_middle(world, step->from.body);
-  if (holds && !step->holds) step->last = middle;
-  step->holds = holds;
-  return holds && spore_vec3_dot(spore_vec3_sub(middle, step->last), exercise->up) >= step->from.fields.height;
+  if (!is_held(exercise, world, instrument, step->from.body)) {
+    if (step->holder == instrument) step->holder = SPORE_NO_PART;
+    return false;
+  }
+  if (step->holder == SPORE_NO_PART) step->holder = instrument, step->last = middle;
+  return spore_vec3_dot(spore_vec3_sub(middle, step->last), exercise->up) >= step->from.fields.height;
 }
 
 static const SporeParameter lifted_rows[] = {
@@ -101,7 +100,6 @@ static const SporeEventKind lifted = {.element = "lifted",
                                       .doc = N_("Jaws hold a body and raise it."),
                                       .parameters = SPORE_TABLE(lifted_rows, SporeEventFields),
                                       .needs_body = true,
-                                      .needs_tool = true,
                                       .happens = is_lifted};
 
 /* What tools do. A tool did it to the body where both counts grew in the same step of the world. */
@@ -151,7 +149,6 @@ static const SporeEventKind coagulated = {.element = "coagulated",
                                           .doc = N_("Bipolar forceps coagulate a body."),
                                           .parameters = SPORE_TABLE(coagulated_rows, SporeEventFields),
                                           .needs_body = true,
-                                          .needs_tool = true,
                                           .lasting = true,
                                           .happens = is_coagulated};
 
@@ -161,7 +158,6 @@ static const SporeEventKind cut = {.element = "cut",
                                    .doc = N_("Scissors cut a body."),
                                    .parameters = SPORE_TABLE(cut_rows, SporeEventFields),
                                    .needs_body = true,
-                                   .needs_tool = true,
                                    .lasting = true,
                                    .happens = is_cut};
 
@@ -172,7 +168,6 @@ static const SporeEventKind pierced = {.element = "pierced",
                                        .doc = N_("A needle goes through the surface of a body."),
                                        .parameters = SPORE_TABLE(pierced_rows, SporeEventFields),
                                        .needs_body = true,
-                                       .needs_tool = true,
                                        .lasting = true,
                                        .happens = is_pierced};
 
@@ -183,7 +178,6 @@ static const SporeEventKind sucked = {.element = "sucked",
                                       .doc = N_("Suction takes particles of a fluid away."),
                                       .parameters = SPORE_TABLE(sucked_rows, SporeEventFields),
                                       .needs_body = true,
-                                      .needs_tool = true,
                                       .lasting = true,
                                       .happens = is_sucked};
 
@@ -200,8 +194,8 @@ static bool passes(Exercise exercise, SporeStepRun *step, const SporeWorld *worl
   const SporeEventFields *fields = &step->from.fields;
   SporeVec3 centre = spore_vec3_load(fields->point), now = point_of(exercise, step, world, instrument);
   SporeVec3 along = spore_vec3_normalise(spore_vec3_load(fields->direction), spore_vec3(1, 0, 0)), before = step->last;
-  bool known = step->holds;
-  step->last = now, step->holds = true;
+  bool known = step->known;
+  step->last = now, step->known = true;
   double from = spore_vec3_dot(spore_vec3_sub(before, centre), along);
   double to = spore_vec3_dot(spore_vec3_sub(now, centre), along);
   if (!known || !(from < 0 && to >= 0)) return false;
@@ -267,4 +261,20 @@ const SporeEventKind *spore_event_kind_find(const char *element) {
   const SporeEventKind *const *kind = spore_event_kinds;
   while (*kind && strcmp((*kind)->element, element)) kind++;
   return *kind;
+}
+
+/* Whether a name is among those that bars join. */
+static bool is_listed(const char *names, const char *name) {
+  size_t length = strlen(name);
+  for (const char *at = names; *at;) {
+    size_t end = strcspn(at, "|");
+    if (end == length && memcmp(at, name, length) == 0) return true;
+    at += end + (at[end] == '|');
+  }
+  return false;
+}
+
+bool spore_event_kind_allows(const SporeEventKind *kind, const char *tool) {
+  int index = spore_parameter_find(&kind->parameters, "tool");
+  return index >= 0 && is_listed(kind->parameters.parameters[index].references, tool);
 }

@@ -144,6 +144,18 @@ static void place_instruments(SporeExercise *exercise, const SporeExerciseDescri
   exercise->view_count = from->view_count;
 }
 
+/* What touches alone is no tool of the world. */
+static const char *element_of(const SporeInstrument *instrument, const SporeWorld *world) {
+  return instrument->tool == SPORE_NO_PART ? "probe" : spore_world_tool_type(world, instrument->tool)->element;
+}
+
+static void find_able(SporeExercise *exercise, const SporeWorld *world) {
+  for (size_t s = 0; s < exercise->step_count; s++)
+    for (uint32_t i = 0; i < exercise->instrument_count; i++)
+      if (spore_event_kind_allows(exercise->steps[s].from.kind, element_of(&exercise->instruments[i], world)))
+        exercise->steps[s].able |= UINT64_C(1) << i;
+}
+
 static bool make(SporeExercise *exercise, const SporeExerciseDescription *from, const SporeWorld *world,
                  SporeError *error) {
   exercise->body_count = spore_world_body_count(world);
@@ -156,6 +168,7 @@ static bool make(SporeExercise *exercise, const SporeExerciseDescription *from, 
   if (!whole || !own_texts(exercise, from))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the exercise"));
   place_instruments(exercise, from, world);
+  find_able(exercise, world);
   exercise->up = spore_vec3_normalise(from->up, (SporeVec3){0, 0, 0});
   order_steps(exercise);
   bool made = check_steps(exercise, error);
@@ -243,7 +256,7 @@ static bool happens(const SporeExercise *exercise, SporeStepRun *step, const Spo
   if (step->from.instrument != SPORE_NO_PART) return kind->happens(exercise, step, world, step->from.instrument);
   bool happened = false;
   for (uint32_t i = 0; i < exercise->instrument_count && !happened; i++)
-    happened = kind->happens(exercise, step, world, i);
+    happened = (step->able >> i & 1) && kind->happens(exercise, step, world, i);
   return happened;
 }
 
@@ -277,7 +290,11 @@ void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world) {
   exercise->phase = SPORE_EXERCISE_RUNNING;
   exercise->step_was_done = exercise->paused = exercise->tried = false;
   for (size_t i = 0; i < exercise->step_count; i++)
-    exercise->steps[i] = (SporeStepRun){.from = exercise->steps[i].from, .done_s = NAN, .since_s = -1};
+    exercise->steps[i] = (SporeStepRun){.from = exercise->steps[i].from,
+                                        .able = exercise->steps[i].able,
+                                        .done_s = NAN,
+                                        .since_s = -1,
+                                        .holder = SPORE_NO_PART};
   for (size_t i = 0; i < exercise->metric_count; i++) {
     SporeMetricRun *metric = &exercise->metrics[i];
     *metric =

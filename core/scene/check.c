@@ -290,6 +290,7 @@ GPtrArray *spore_document_check(SporeDocument *document, const SporeCancel *canc
   spore_check_each(&check, "tools", "suction", check_suction);
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);
+  spore_check_exercise(&check);
   spore_check_assets(&check);
   spore_check_materials(&check);
   spore_check_solver(&check);

@@ -38,7 +38,8 @@ void spore_check_links(SporeCheck *check);  /* links that tie nothing, and bodie
 void spore_check_assets(SporeCheck *check); /* assets: readable, used, of a likely size, up to date */
 /* Values far from those of the material that the author named. */
 void spore_check_materials(SporeCheck *check);
-void spore_check_solver(SporeCheck *check); /* methods and contact choices without effect */
+void spore_check_exercise(SporeCheck *check); /* steps of the exercise that no tool can do */
+void spore_check_solver(SporeCheck *check);   /* methods and contact choices without effect */
 /* Links whose points lie far from what they tie. */
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation);
 /* Pins that clamp a line elsewhere than at their radius. */

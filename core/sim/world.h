@@ -256,6 +256,8 @@ SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 
 /* Number of tools. */
 size_t spore_world_tool_count(const SporeWorld *world);
+/* Kind of a tool, in the order of the description. */
+const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t tool);
 /* State of a tool, in the order of the description. */
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 /* Number of spheres of the body that the tool's jaws hold now. */

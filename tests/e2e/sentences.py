@@ -87,10 +87,10 @@ PROBE = '<probe name="t" body="tool" device="m"/>'
 MOUSE = '<mouse name="m"/>'
 
 
-def scene(*bodies, links="", tools="", devices="", effects="", assets=ASSETS, solver="", environment=""):
+def scene(*bodies, links="", tools="", devices="", effects="", exercise="", assets=ASSETS, solver="", environment=""):
     parts = "".join(f"<{name}>{content}</{name}>" for name, content in
                     (("assets", assets), ("bodies", "".join(bodies)), ("links", links), ("tools", tools),
-                     ("devices", devices), ("effects", effects)) if content)
+                     ("devices", devices), ("effects", effects), ("exercise", exercise)) if content)
     return f'<spore version="1.0"><environment {environment}/><solver {solver}/>{parts}</spore>\n'
 
 
@@ -275,6 +275,9 @@ CHECK = [
     ("\"%s\" passes through \"%s\", whose stiffness is that of the whole",
      ["make it neo_hookean_tetrahedra, if it should be cut; nothing is to be done if not"],
      jaws("scissors", net('<mechanical geometry="cells"><linear_tetrahedra/></mechanical>')), jaws("scissors", net(SOFT))),
+    ("no tool of the scene can do the step \"%s\"", ["add a tool that can, or remove the step"],
+     scene(stone(), tool(), tools=PROBE, devices=MOUSE, exercise='<grasped name="g" body="stone"/>'),
+     scene(stone(), tool(), tools=PROBE, devices=MOUSE, exercise='<touched name="g" body="stone"/>')),
     ("\"%s\" has nothing to work on: no body has a model that can be cut",
      ["make what is to be cut a mass_spring_net or neo_hookean_tetrahedra, or the tool a grasper"],
      jaws("scissors", net(role="unmovable")), jaws("scissors", net())),

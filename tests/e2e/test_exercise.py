@@ -225,6 +225,15 @@ def marks_and_score_follow_from_the_thresholds():
 
 
 @check
+def what_no_tool_is_named_for_is_done_by_those_that_can():
+    lifted = '<lifted name="%s" %s body="adnexa" height="0.0005"/>'
+    found = steps(run_shipped("exercise-salpingectomy", '<grasped name="grasped" body="adnexa"/><clamped name="clamped" body="adnexa"/>' +
+                              lifted % ("named", 'tool="grasper"') + lifted % ("any", ""), 600))
+    assert found["grasped"]["phase"] == "done" and found["clamped"]["phase"] == "open", "a grasper is no clamp"
+    assert found["named"]["phase"] == "done" and found["any"] == {**found["named"], "name": "any"}, found
+
+
+@check
 def clip_holds_and_needle_pierces():
     clamp = steps(run_shipped("plate8-clamp", '<clamped name="yes" body="tube_right"/><held name="held" body="tube_right" '
                               'time="0.1"/><held name="long" body="tube_right" time="60"/>', 800))

@@ -171,6 +171,11 @@ size_t spore_world_tool_holds(const SporeWorld *world, size_t index, uint32_t bo
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }
 
+const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t index) {
+  assert(index < world->tools.count);
+  return world->tools.all[index]->type;
+}
+
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
   assert(index < world->tools.count);
   const SporeTool *tool = world->tools.all[index];
