@@ -159,10 +159,17 @@ static void keep_particles(SporeDrawnPart *part, const double *q) {
   part->count = count;
 }
 
+/* A rigid body turns about its centre of mass, from where its mapping counts; the frame is that of the points at rest.
+ */
 static void place_frame(SporeDrawnPart *part, SporePose start, const double *q) {
-  const SporeMappingKind kind = part->source->mapping.kind;
-  part->framed = !part->smoke && (kind == SPORE_MAPPING_RIGID || kind == SPORE_MAPPING_FIXED);
-  part->frame = kind == SPORE_MAPPING_RIGID ? (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)} : start;
+  const SporePartSource *source = part->source;
+  const SporeMappingKind kind = source->mapping.kind;
+  part->framed = !part->smoke && source->count > 0 && (kind == SPORE_MAPPING_RIGID || kind == SPORE_MAPPING_FIXED);
+  part->frame = start;
+  if (!part->framed || kind == SPORE_MAPPING_FIXED) return;
+  SporeVec3 offset = spore_vec3_sub(spore_vec3_load(source->mapping.points), spore_vec3_load(source->points));
+  part->frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  part->frame.position = spore_pose_apply(part->frame, offset);
 }
 
 static gboolean update_part(const SporeDrawing *drawing, const SporeSnapshot *snapshot, SporeDrawnPart *part,
