@@ -45,6 +45,8 @@ static const ExportFormat formats[] = {
      N_("the surfaces at a moment, in metres: an object for each body, and F.mtl with the colours"), spore_export_obj},
     {"ply", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh with colours"), spore_export_ply},
     {"stl", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh"), spore_export_stl},
+    {"mjcf", EXPORT_ONE_MOMENT, N_("rigid bodies at a moment for MuJoCo 2.2: spheres, masses, springs, ball joints"),
+     spore_export_mjcf},
 };
 
 static gboolean export_scene(SporeExport *export, const char *scene, const SporeSceneOptions *options,

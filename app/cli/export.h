@@ -44,6 +44,8 @@ typedef gboolean (*SporeExportMoment)(gpointer data, const SporeDrawing *drawing
  * given at the end alone. Tells how much of the run was not solved. FALSE with a GError; SPORE_ERROR_CANCELLED after
  * Ctrl-C. */
 gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
+/* Adds the sections of the scene that no other program knows: tools, devices, exercise and so on. links: these too. */
+void spore_export_lose_sections(SporeExport *export, gboolean links);
 /* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */
 void spore_export_lose_physics(SporeExport *export, gboolean colours);
 
@@ -54,6 +56,7 @@ gboolean spore_export_refuse_empty(const SporeExport *export, GError **error);
 gboolean spore_export_bundle(SporeExport *export, GError **error);
 gboolean spore_export_runtime(SporeExport *export, GError **error);
 gboolean spore_export_gltf(SporeExport *export, GError **error);
+gboolean spore_export_mjcf(SporeExport *export, GError **error);
 gboolean spore_export_obj(SporeExport *export, GError **error);
 gboolean spore_export_ply(SporeExport *export, GError **error);
 gboolean spore_export_stl(SporeExport *export, GError **error);

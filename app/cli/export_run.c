@@ -64,7 +64,7 @@ gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointe
   return TRUE;
 }
 
-void spore_export_lose_physics(SporeExport *export, gboolean colours) {
+void spore_export_lose_sections(SporeExport *export, gboolean links) {
   static const struct {
     const char *section, *sentence;
   } sections[] = {
@@ -74,9 +74,13 @@ void spore_export_lose_physics(SporeExport *export, gboolean colours) {
       {"devices", N_("the devices: what moved the instruments")},
       {"exercise", N_("the exercise: its steps and metrics are not in the file")},
   };
-  for (gsize i = 0; i < G_N_ELEMENTS(sections); i++)
+  for (gsize i = links ? 0 : 1; i < G_N_ELEMENTS(sections); i++)
     if (spore_object_child_count(spore_document_section(export->document, sections[i].section)) > 0)
       spore_export_lose(export, g_strdup(_(sections[i].sentence)));
+}
+
+void spore_export_lose_physics(SporeExport *export, gboolean colours) {
+  spore_export_lose_sections(export, TRUE);
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
 }

@@ -243,6 +243,8 @@ void spore_drawing_free(SporeDrawing *drawing) {
   g_free(drawing);
 }
 
+const SporeSimulation *spore_drawing_simulation(const SporeDrawing *drawing) { return drawing->simulation; }
+
 guint spore_drawing_part_count(const SporeDrawing *drawing) { return drawing->parts->len; }
 
 const SporeDrawnPart *spore_drawing_part(const SporeDrawing *drawing, guint i) {

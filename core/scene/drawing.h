@@ -52,6 +52,8 @@ void spore_drawing_free(SporeDrawing *drawing);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeDrawing, spore_drawing_free)
 /* Moves all parts to the newest snapshot of the world, which this function acquires. FALSE: no memory. */
 gboolean spore_drawing_update(SporeDrawing *drawing, GError **error);
+/* The simulation that is drawn. */
+const SporeSimulation *spore_drawing_simulation(const SporeDrawing *drawing);
 guint spore_drawing_part_count(const SporeDrawing *drawing);
 /* Part i; owned by the drawing. */
 const SporeDrawnPart *spore_drawing_part(const SporeDrawing *drawing, guint i);
