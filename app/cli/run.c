@@ -5,6 +5,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/run_exercise.h"
 #include "app/cli/run_output.h"
+#include "app/cli/run_pictures.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
@@ -50,7 +51,8 @@ typedef struct Beside {
   SporePace *pace;      /* the clock that paces the steps; NULL: none */
   Recording *recording; /* with a channel for each active body; NULL: nothing is recorded */
   SporeOutput *output;
-  SporeExercise *exercise; /* NULL: the scene has none */
+  SporeExercise *exercise;    /* NULL: the scene has none */
+  SporeRunPictures *pictures; /* of the exercise; NULL: none are wanted */
 } Beside;
 
 static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, const Beside *beside) {
@@ -68,6 +70,7 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
     spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);
     if (beside->exercise) spore_exercise_watch(beside->exercise, world);
+    if (beside->pictures) spore_run_pictures_look(beside->pictures);
     if (beside->recording && !record_inputs(world, &beside->recording->track)) {
       beside->recording->lost = TRUE;
       break;
@@ -120,6 +123,12 @@ static gboolean check_files(const char *scene, const RunOptions *options, GError
   return spore_output_check(&options->output, scene, input, record, error);
 }
 
+static int save_report(SporeCli *cli, const char *scene, const char *file, const Beside *beside) {
+  SporeReportPictures pictures = {0};
+  if (beside->pictures) pictures = spore_run_pictures_get(beside->pictures);
+  return spore_exercise_file_save(cli, beside->exercise, scene, file, beside->pictures ? &pictures : NULL);
+}
+
 /* Runs what was opened, and writes what was asked for. */
 static int run_opened(SporeCli *cli, const char *scene, const RunOptions *options, SporeWorld *world, gint64 steps,
                       Beside *beside) {
@@ -135,8 +144,7 @@ static int run_opened(SporeCli *cli, const char *scene, const RunOptions *option
   int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace, beside->exercise));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
   int written = spore_output_save(cli, beside->output, scene);
-  int reported =
-      options->report ? spore_exercise_file_save(cli, beside->exercise, scene, options->report) : SPORE_EXIT_DONE;
+  int reported = options->report ? save_report(cli, scene, options->report, beside) : SPORE_EXIT_DONE;
   status = MAX(MAX(status, reported), MAX(saved, written));
   spore_track_clear(&recording.track);
   spore_run_statistics_clear(&result);
@@ -158,9 +166,11 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
         _("--report: the scene has no exercise; expected steps or metrics in it; leave --report out"));
   SporeOutput output;
   Beside beside = {.dt_s = dt_s, .levels = levels, .output = &output, .exercise = run->simulation->exercise};
+  if (options->report && g_str_has_suffix(options->report, ".html")) beside.pictures = spore_run_pictures_new(run);
   gboolean opened = spore_output_open(&output, &options->output, run, &error);
   int status = opened ? run_opened(cli, scene, options, run->simulation->world, steps, &beside) : spore_cli_fail(error);
   spore_output_clear(&output);
+  spore_run_pictures_free(beside.pictures);
   return status;
 }
 

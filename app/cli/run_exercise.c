@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/author/exercise_report.h"
 #include "core/io/scene_xml.h"
 
 static void say_steps(const SporeCli *cli, const SporeExercise *exercise, gsize count) {
@@ -42,13 +41,15 @@ gboolean spore_exercise_file_check(const char *file, const char *scene, const ch
          (!input || spore_cli_has_room(file, input, error));
 }
 
-int spore_exercise_file_save(const SporeCli *cli, const SporeExercise *exercise, const char *scene, const char *file) {
+int spore_exercise_file_save(const SporeCli *cli, const SporeExercise *exercise, const char *scene, const char *file,
+                             const SporeReportPictures *pictures) {
   GError *error = NULL;
   if (spore_cli_interrupted()) {
     fprintf(stderr, _("%s: interrupted; the report was not written, and what was there stays\n"), file);
     return SPORE_EXIT_INTERRUPTED;
   }
-  g_autofree char *title = g_filename_display_basename(scene), *text = spore_exercise_report(exercise, title, file);
+  g_autofree char *title = g_filename_display_basename(scene),
+                  *text = spore_exercise_report(exercise, title, file, pictures);
   if (!spore_write_file(file, text, strlen(text), &error)) return spore_cli_fail(error);
   spore_cli_say(cli, _("%s: the report of the exercise\n"), file);
   return SPORE_EXIT_DONE;

@@ -3,7 +3,7 @@
 #define SPORE_APP_RUN_EXERCISE_H
 
 #include "app/cli/cli.h"
-#include "core/exercise/exercise.h"
+#include "core/author/exercise_report.h"
 
 /* Adds the exercise to the report, and says it to people. exercise: NULL: nothing is added. */
 void spore_run_report_exercise(SporeCli *cli, const SporeExercise *exercise);
@@ -12,7 +12,8 @@ void spore_run_report_exercise(SporeCli *cli, const SporeExercise *exercise);
  * the scene nor the input (NULL: none). */
 gboolean spore_exercise_file_check(const char *file, const char *scene, const char *input, GError **error);
 /* Writes the exercise as a table (.csv), an object (.json) or a page that needs no other file (.html), by the file's
- * name. Returns the exit status. */
-int spore_exercise_file_save(const SporeCli *cli, const SporeExercise *exercise, const char *scene, const char *file);
+ * name. pictures: NULL: none. Returns the exit status. */
+int spore_exercise_file_save(const SporeCli *cli, const SporeExercise *exercise, const char *scene, const char *file,
+                             const SporeReportPictures *pictures);
 
 #endif

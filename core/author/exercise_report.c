@@ -217,11 +217,30 @@ static void list_metrics(GString *text, const SporeExercise *exercise, const Spo
   g_string_append(text, "</table>\n");
 }
 
-static void page(GString *text, const SporeExercise *exercise, const char *title) {
+/* The moments that counted: a picture for each step that was done and drawn. */
+static void show_pictures(GString *text, const SporeExercise *exercise, const SporeReportPictures *pictures) {
+  gsize count = spore_exercise_state(exercise).steps;
+  for (gsize i = 0; i < MIN(count, pictures->of_step->len); i++) {
+    SporeStepState step = spore_exercise_step_state(exercise, i);
+    GBytes *picture = pictures->of_step->pdata[i];
+    if (!picture || step.phase != SPORE_STEP_DONE) continue;
+    g_autofree char *data = g_base64_encode(g_bytes_get_data(picture, NULL), g_bytes_get_size(picture));
+    g_string_append_printf(text, "<figure><img alt=\"\" src=\"data:image/png;base64,%s\"/><figcaption>", data);
+    add_escaped(text, step.name);
+    g_string_append_printf(text, ", %.2f s</figcaption></figure>\n", step.done_s);
+  }
+  if (!pictures->fault) return;
+  g_string_append_printf(text, "<p>%s ", _("Pictures are missing:"));
+  add_escaped(text, pictures->fault);
+  g_string_append(text, "</p>\n");
+}
+
+static void page(GString *text, const SporeExercise *exercise, const char *title, const SporeReportPictures *pictures) {
   SporeExerciseState state = spore_exercise_state(exercise);
   g_string_append(text, "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"/><title>");
   add_escaped(text, title);
   g_string_append(text, "</title><style>body{font-family:sans-serif;margin:2em}td,th{padding:2px 10px;text-align:left}"
+                        "figure{display:inline-block;margin:4px}"
                         "</style></head><body>\n<h1>");
   add_escaped(text, title);
   g_string_append_printf(text, "</h1>\n<p>%s</p>\n<p>", _("For training and preview only."));
@@ -233,15 +252,17 @@ static void page(GString *text, const SporeExercise *exercise, const char *title
         _("A try-out: steps were skipped and count as done, or the scene was changed or pulled at meanwhile."));
   g_string_append(text, "</p>\n");
   plot_steps(text, exercise, &state);
+  if (pictures) show_pictures(text, exercise, pictures);
   plot_metrics(text, exercise, &state);
   list_metrics(text, exercise, &state);
   g_string_append(text, "</body></html>\n");
 }
 
-char *spore_exercise_report(const SporeExercise *exercise, const char *title, const char *file) {
+char *spore_exercise_report(const SporeExercise *exercise, const char *title, const char *file,
+                            const SporeReportPictures *pictures) {
   GString *text = g_string_new(NULL);
   if (g_str_has_suffix(file, ".csv")) table(text, exercise);
-  else if (g_str_has_suffix(file, ".html")) page(text, exercise, title);
+  else if (g_str_has_suffix(file, ".html")) page(text, exercise, title, pictures);
   else object(text, exercise);
   return g_string_free(text, FALSE);
 }

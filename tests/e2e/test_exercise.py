@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Exercises, headless: every event and every metric against a run in which it is there and one in which it is not, and
 against what can be computed by hand. test_exercise.py SPORE."""
+import base64
 import csv
 import json
 import math
@@ -52,8 +53,9 @@ def straight(t):
 track(straight)
 
 
-def spore(*arguments, status=0):
-    done = subprocess.run([SPORE, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=WORK)
+def spore(*arguments, status=0, env=None):
+    done = subprocess.run([SPORE, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=WORK,
+                          env={**os.environ, **(env or {})})
     assert done.returncode == status, f"{arguments}: status {done.returncode}\n{done.stdout}{done.stderr}"
     return done
 
@@ -335,7 +337,35 @@ def reports_are_a_table_an_object_and_a_page_of_their_own():
     assert json.loads((WORK / "r.json").read_text())["exercise"] == exercise
     page = (WORK / "r.html").read_text()
     root = xml.etree.ElementTree.fromstring(page.replace("<!DOCTYPE html>", ""))
-    assert len(root.findall(".//svg")) == 2 and "http" not in page and "src=" not in page, page
+    assert len(root.findall(".//svg")) == 2 and "http" not in page and page.count("src=") == page.count('src="data:'), page
+
+
+def pictures(page):
+    """Names of the steps that have one, and what the page says of those that are missing."""
+    root = xml.etree.ElementTree.fromstring((WORK / page).read_text().replace("<!DOCTYPE html>", ""))
+    found = {figure.find("figcaption").text: figure.find("img").get("src") for figure in root.iter("figure")}
+    for data in found.values():
+        assert base64.b64decode(data.removeprefix("data:image/png;base64,")).startswith(b"\x89PNG"), data[:80]
+    return found, [p.text for p in root.iter("p") if p.text and p.text.startswith("Pictures are missing:")]
+
+
+@check
+def the_page_shows_the_moments_at_which_steps_were_done():
+    parts = "".join(f'<reached name="{name}" tool="one" point="{x} 0 0" radius="0.002"/>'
+                    for name, x in (("near", 0.01), ("there", 0.01), ("far", 0.1), ("never", 0.5)))
+    steps_of = run(parts, 200, "", "--report", "moments.html")["steps"]
+    done = [f"{step['name']}, {step['done_s']:.2f} s" for step in steps_of if step["phase"] == "done"]
+    found, missing = pictures("moments.html")
+    if "render" in spore("--help").stdout and subprocess.run(
+            [SPORE, "render", "scene.spore", "-o", "x.png"], cwd=WORK, capture_output=True).returncode == 0:
+        assert list(found) == done and len(done) == 3 and not missing, (done, list(found), missing)
+        near, there, far = found.values()
+        assert near == there != far, "a picture of each moment, and one for two steps of one moment"
+    else:
+        assert not found and len(missing) == 1, (list(found), missing)
+    spore("run", "scene.spore", "-n", 200, "--report", "dark.html", env={"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent"})
+    found, missing = pictures("dark.html")
+    assert not found and len(missing) == 1, (list(found), missing)
 
 
 def refused(parts, place, words, command="run"):

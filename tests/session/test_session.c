@@ -191,7 +191,7 @@ static void add_exercise(Fixture *fixture) {
 }
 
 static void keep_report(const SporeExercise *exercise, gpointer report) {
-  *(char **)report = spore_exercise_report(exercise, "scene", ".json");
+  *(char **)report = spore_exercise_report(exercise, "scene", ".json", NULL);
 }
 
 static char *report_of(SporeSession *session) {

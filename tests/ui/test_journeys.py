@@ -1812,7 +1812,8 @@ def exercise_from_nothing():
         exercise = json.loads(same)["exercise"]
         assert exercise["phase"] == "done" and 0 < exercise["score"] < 100 and "tried" not in exercise, exercise
         assert f": score {exercise['score']:.1f}, passed, 2 of 2 steps, {exercise['time_s']:.2f} of 30 s" in said, said
-        assert "<svg" in report.with_suffix(".html").read_text() and "score,,," in report.with_suffix(".csv").read_text()
+        page = report.with_suffix(".html").read_text()
+        assert "<svg" in page and "spore run draws them" in page and "score,,," in report.with_suffix(".csv").read_text()
         editor.act("save-exercise", "s", str(report.with_suffix(".txt")))
         ui.wait(lambda: "expected .csv, .json or .html" in (editor.message() or ""), "the refusal of another kind of file")
         kept = f"score {exercise['score']:.1f}, {exercise['time_s']:.2f} s, 2 of 2 steps, passed$"

@@ -294,7 +294,9 @@ typedef struct Report {
 
 static void write_report(const SporeExercise *exercise, gpointer data) {
   Report *report = data;
-  report->text = spore_exercise_report(exercise, report->title, report->file);
+  g_autoptr(GPtrArray) none = g_ptr_array_new();
+  const SporeReportPictures pictures = {none, _("the editor takes none; spore run draws them from the recorded input")};
+  report->text = spore_exercise_report(exercise, report->title, report->file, &pictures);
 }
 
 gboolean spore_exercise_panel_save(SporeExercisePanel *self, const char *file, GError **error) {

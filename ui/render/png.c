@@ -42,14 +42,19 @@ static gboolean encode(GByteArray *bytes, const guint8 *pixels, int width, int h
   return TRUE;
 }
 
+GBytes *spore_png_encode(const guint8 *pixels, int width, int height, gsize stride, GError **error) {
+  g_return_val_if_fail(width > 0 && height > 0 && stride >= 4 * (gsize)width, NULL);
+  g_autoptr(GByteArray) bytes = g_byte_array_new();
+  g_autofree guint8 *row = g_malloc((gsize)width * 3);
+  if (encode(bytes, pixels, width, height, stride, row)) return g_byte_array_free_to_bytes(g_steal_pointer(&bytes));
+  spore_error_raise(error, SPORE_ERROR_MEMORY, "PNG", _("not enough memory for the picture; make it smaller"));
+  return NULL;
+}
+
 gboolean spore_png_write(const char *file, const guint8 *pixels, int width, int height, gsize stride, GError **error) {
-  g_return_val_if_fail(width > 0 && height > 0 && stride >= 4 * (gsize)width, FALSE);
   if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
     return spore_error_raise(error, SPORE_ERROR_FILE, file,
                              _("this is no regular file; a picture to write was expected; choose another place"));
-  g_autoptr(GByteArray) bytes = g_byte_array_new();
-  g_autofree guint8 *row = g_malloc((gsize)width * 3);
-  if (!encode(bytes, pixels, width, height, stride, row))
-    return spore_error_raise(error, SPORE_ERROR_MEMORY, file, _("not enough memory for the picture; make it smaller"));
-  return spore_write_file(file, bytes->data, bytes->len, error);
+  g_autoptr(GBytes) bytes = spore_png_encode(pixels, width, height, stride, error);
+  return bytes && spore_write_file(file, g_bytes_get_data(bytes, NULL), g_bytes_get_size(bytes), error);
 }

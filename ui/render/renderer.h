@@ -70,6 +70,8 @@ typedef struct SporeRenderOptions {
 gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
                              guint8 *pixels, gsize stride, GError **error);
 
+/* Pixels, laid out as above, as the content of a PNG. NULL with a GError: no memory. */
+GBytes *spore_png_encode(const guint8 *pixels, int width, int height, gsize stride, GError **error);
 /* Writes pixels, laid out as above, as a PNG; the file that was there stays where that fails (spore_write_file). */
 gboolean spore_png_write(const char *file, const guint8 *pixels, int width, int height, gsize stride, GError **error);
 
