@@ -1827,8 +1827,10 @@ def exercise_from_nothing():
         editor.act("remove-part")
         ui.wait(lambda: not editor.look("label", "^2. Reached"), "the step to go")
         editor.act("undo")
+        editor.act("open", "s", str(SCENES / "minimal.spore"))
+        ui.wait(lambda: editor.row("floor") and not editor.look("label", kept, showing=False), "a scene without attempts")
         editor.act("open", "s", str(scene))
-        ui.wait(lambda: shown(editor, "^Begin plays the scene"), "the scene to be opened again")
+        ui.wait(lambda: editor.row("organ"), "the scene to be opened again")
         editor.find("label", kept, showing=False)
 
 

@@ -164,12 +164,12 @@ GtkWidget *spore_metric_heads_new(GtkSizeGroup *const columns[SPORE_METRIC_COLUM
   return box;
 }
 
-/* What is being typed stays. */
+/* What is being typed stays until the document says something else. */
 static void refresh_threshold(GtkWidget *entry, const SporeObject *metric, const char *property) {
   const char *text = spore_object_text(metric, property);
+  if (g_strcmp0(text, g_object_get_data(G_OBJECT(entry), "shown")) == 0) return;
   g_object_set_data_full(G_OBJECT(entry), "shown", g_strdup(text), g_free);
-  if (!gtk_widget_has_focus(entry) || g_strcmp0(text, gtk_entry_get_text(GTK_ENTRY(entry))) != 0)
-    gtk_entry_set_text(GTK_ENTRY(entry), text ? text : "");
+  gtk_entry_set_text(GTK_ENTRY(entry), text ? text : "");
 }
 
 void spore_metric_row_refresh(GtkWidget *widget, const SporeObject *metric) {

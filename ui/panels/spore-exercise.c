@@ -164,17 +164,42 @@ static void player_changed(SporeExercisePanel *self) {
 
 /* The document. */
 
-/* Whether the list shows the parts of the section, of that sort and in their order. */
-static gboolean is_of(GtkWidget *list, const SporeObject *section, gboolean (*sort)(const SporeObject *)) {
+static GtkWidget *find_row(GtkWidget *list, guint32 id) {
   g_autoptr(GList) rows = gtk_container_get_children(GTK_CONTAINER(list));
-  GList *row = rows;
-  for (guint i = 0; i < spore_object_child_count(section); i++) {
-    const SporeObject *part = spore_object_child(section, i);
-    if (!sort(part)) continue;
-    if (!row || spore_exercise_row_id(row->data) != spore_object_id(part)) return FALSE;
-    row = row->next;
+  for (GList *row = rows; row; row = row->next)
+    if (spore_exercise_row_id(row->data) == id) return row->data;
+  return NULL;
+}
+
+static GtkWidget *new_row(SporeExercisePanel *self, const SporeObject *part) {
+  return spore_step_is(part) ? spore_step_row_new(part) : spore_metric_row_new(part, self->widths);
+}
+
+/* Puts the part's row at that place: the row that is there already, since something may be typed in it, or a new one.
+ */
+static void put_row(SporeExercisePanel *self, GtkWidget *list, const SporeObject *part, int place) {
+  GtkWidget *row = find_row(list, spore_object_id(part));
+  if (row && gtk_list_box_row_get_index(GTK_LIST_BOX_ROW(row)) == place) return;
+  if (row) {
+    g_object_ref(row);
+    gtk_container_remove(GTK_CONTAINER(list), row);
+    gtk_list_box_insert(GTK_LIST_BOX(list), row, place);
+    g_object_unref(row);
+  } else {
+    gtk_list_box_insert(GTK_LIST_BOX(list), new_row(self, part), place);
   }
-  return row == NULL;
+}
+
+/* The list gets a row for each part of that sort, in their order. */
+static void build_list(SporeExercisePanel *self, GtkWidget *list, gboolean (*sort)(const SporeObject *)) {
+  const SporeObject *section = section_of(self);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_autoptr(GList) rows = gtk_container_get_children(GTK_CONTAINER(list));
+  for (GList *row = rows; row; row = row->next)
+    if (!sort(spore_document_by_id(document, spore_exercise_row_id(row->data)))) gtk_widget_destroy(row->data);
+  int place = 0;
+  for (guint i = 0; i < spore_object_child_count(section); i++)
+    if (sort(spore_object_child(section, i))) put_row(self, list, spore_object_child(section, i), place++);
 }
 
 static void remove_rows(GtkWidget *list) {
@@ -182,18 +207,9 @@ static void remove_rows(GtkWidget *list) {
 }
 
 static void build(SporeExercisePanel *self) {
-  const SporeObject *section = section_of(self);
-  gboolean steps = !is_of(self->steps, section, spore_step_is),
-           metrics = !is_of(self->metrics, section, spore_metric_is);
-  if (steps) remove_rows(self->steps);
-  if (metrics) remove_rows(self->metrics);
-  for (guint i = 0; i < spore_object_child_count(section); i++) {
-    const SporeObject *part = spore_object_child(section, i);
-    if (steps && spore_step_is(part)) gtk_container_add(GTK_CONTAINER(self->steps), spore_step_row_new(part));
-    if (metrics && spore_metric_is(part))
-      gtk_container_add(GTK_CONTAINER(self->metrics), spore_metric_row_new(part, self->widths));
-  }
-  gtk_widget_set_visible(self->heads, spore_object_child_count(section) > 0);
+  build_list(self, self->steps, spore_step_is);
+  build_list(self, self->metrics, spore_metric_is);
+  gtk_widget_set_visible(self->heads, spore_object_child_count(section_of(self)) > 0);
 }
 
 static void refresh(SporeExercisePanel *self) {
@@ -211,11 +227,8 @@ static void refresh(SporeExercisePanel *self) {
 
 /* Selects the row of that object; 0 or an object that has no row: none. */
 static void select_row(GtkWidget *list, guint32 id) {
-  g_autoptr(GList) rows = gtk_container_get_children(GTK_CONTAINER(list));
-  GtkListBoxRow *found = NULL;
-  for (GList *row = rows; row; row = row->next)
-    if (spore_exercise_row_id(row->data) == id) found = row->data;
-  gtk_list_box_select_row(GTK_LIST_BOX(list), found);
+  GtkWidget *row = find_row(list, id);
+  gtk_list_box_select_row(GTK_LIST_BOX(list), row ? GTK_LIST_BOX_ROW(row) : NULL);
 }
 
 static void selection_changed(SporeExercisePanel *self) {
@@ -271,6 +284,8 @@ void spore_exercise_panel_set_document(SporeExercisePanel *self, SporeEditorDocu
   g_clear_pointer(&self->attempts, g_array_unref);
   self->attempts = spore_attempts_read(spore_editor_document_get_save_file(document));
   spore_fill_attempt_list(GTK_BOX(self->attempt_list), self->attempts);
+  remove_rows(self->steps); /* ids are of a document */
+  remove_rows(self->metrics);
   build_settings(self);
   build_again(self);
 }
