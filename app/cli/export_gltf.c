@@ -161,8 +161,8 @@ static gboolean write_film(Film *film, GError **error) {
   if (!spore_export_run(export, add_moment, film, error)) return FALSE;
   if (!film->bodies->len) return spore_export_refuse_empty(export, error);
   end_motion(film);
-  GByteArray *content =
-      spore_gltf_format((const SporeGltfBody *)(gconstpointer)film->gltf->data, film->gltf->len, film->times, error);
+  GByteArray *content = spore_gltf_format((const SporeGltfBody *)(gconstpointer)film->gltf->data, film->gltf->len,
+                                          film->times, spore_cli_cancel(), error);
   gboolean done = content && spore_export_write(export, content->data, content->len, error);
   if (content) g_byte_array_unref(content);
   return done;

@@ -28,8 +28,12 @@ typedef struct Writer {
   GString *views, *accessors, *meshes, *materials, *nodes, *samplers, *channels;
   guint view_count, sampler_count;
   GByteArray *numbers;
+  const SporeCancel *cancel;
   gboolean too_large;
 } Writer;
+
+/* Asked before each piece of work. */
+static gboolean goes_on(const Writer *writer) { return !writer->too_large && !spore_cancel_asked(writer->cancel); }
 
 static void separate(GString *list) {
   if (list->len) g_string_append_c(list, ',');
@@ -145,7 +149,7 @@ static void add_mesh(Writer *writer, const SporeGltfBody *body, gsize number) {
                          body->surface.name, place, normal, corners, number);
   guint targets = target_count(body);
   if (targets) g_string_append(writer->meshes, ",\"targets\":[");
-  for (guint key = 1; key <= targets && !writer->too_large; key++) add_target(writer, body, key, base, normals);
+  for (guint key = 1; key <= targets && goes_on(writer); key++) add_target(writer, body, key, base, normals);
   g_string_append(writer->meshes, targets ? "]}]}" : "}]}");
 }
 
@@ -267,24 +271,30 @@ static GByteArray *join(const GString *text, const GByteArray *numbers) {
   return file;
 }
 
-GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GArray *times, GError **error) {
-  Writer writer = {.numbers = g_byte_array_new()};
+static void refuse(const Writer *writer, GError **error) {
+  if (writer->too_large)
+    spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
+                      _("the file would be larger than 2 GiB; expected fewer moments; ask for some that lie farther "
+                        "apart"));
+  else spore_error_raise(error, SPORE_ERROR_CANCELLED, NULL, _("interrupted; nothing was written"));
+}
+
+GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GArray *times, const SporeCancel *cancel,
+                              GError **error) {
+  Writer writer = {.numbers = g_byte_array_new(), .cancel = cancel};
   GString **const lists[] = {&writer.views, &writer.accessors, &writer.meshes,  &writer.materials,
                              &writer.nodes, &writer.samplers,  &writer.channels};
   for (gsize i = 0; i < G_N_ELEMENTS(lists); i++) *lists[i] = g_string_new(NULL);
-  for (gsize i = 0; i < count && !writer.too_large; i++) {
+  for (gsize i = 0; i < count && goes_on(&writer); i++) {
     add_material(&writer, &bodies[i].surface);
     add_mesh(&writer, &bodies[i], i);
     add_node(&writer, &bodies[i], i);
   }
   add_motion(&writer, bodies, count, times);
-  GString *text = writer.too_large ? NULL : describe(&writer, count);
+  GString *text = goes_on(&writer) ? describe(&writer, count) : NULL;
   GByteArray *file = text ? join(text, writer.numbers) : NULL;
   if (text) g_string_free(text, TRUE);
-  else
-    spore_error_raise(error, SPORE_ERROR_INPUT, "--every",
-                      _("the file would be larger than 2 GiB; expected fewer moments; ask for some that lie farther "
-                        "apart"));
+  else refuse(&writer, error);
   for (gsize i = 0; i < G_N_ELEMENTS(lists); i++) g_string_free(*lists[i], TRUE);
   g_byte_array_unref(writer.numbers);
   return file;

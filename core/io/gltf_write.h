@@ -2,6 +2,7 @@
 #ifndef SPORE_IO_GLTF_WRITE_H
 #define SPORE_IO_GLTF_WRITE_H
 
+#include "core/base/cancel.h"
 #include "core/io/motion_keys.h"
 #include "core/io/surface_write.h"
 #include "core/math/quat.h"
@@ -16,7 +17,8 @@ typedef struct SporeGltfBody {
 } SporeGltfBody;
 
 /* The content of the file. times: of the poses, s. g_byte_array_unref. NULL with a GError: the file would be larger
- * than its format allows. */
-GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GArray *times, GError **error);
+ * than its format allows, or it was cancelled. cancel: NULL: nothing does. */
+GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GArray *times, const SporeCancel *cancel,
+                              GError **error);
 
 #endif
