@@ -2,6 +2,7 @@
 #include "app/cli/export.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "app/cli/scene.h"
 
@@ -107,9 +108,15 @@ static int refuse_no_format(void) {
   return spore_cli_usage(_("spore export: no format is given; expected --format and one of %s; add it"), all);
 }
 
+/* A folder may be named with slashes behind it. */
+static void strip_slashes(char *path) {
+  for (gsize size = strlen(path); size > 1 && path[size - 1] == '/'; size--) path[size - 1] = '\0';
+}
+
 static int run(SporeCli *cli, const char *scene, const ExportOptions *options) {
   if (!options->format) return refuse_no_format();
   if (!options->output) return spore_cli_usage(_("spore export: no file to write is given; expected -o F; add it"));
+  strip_slashes(options->output);
   const ExportFormat *format = find_format(options->format);
   return format ? run_export(cli, scene, options, format) : SPORE_EXIT_INPUT;
 }

@@ -25,10 +25,18 @@ typedef struct Series {
   GPtrArray *still; /* by parts: the file of what never moves; NULL: not written yet */
 } Series;
 
+/* The output with a name of its own where it is "." or "..". g_free. */
+static char *named_output(const char *output) {
+  g_autofree char *name = g_path_get_basename(output);
+  gboolean named = !g_str_equal(name, ".") && !g_str_equal(name, "..");
+  return named ? g_strdup(output) : g_canonicalize_filename(output, NULL);
+}
+
 /* F.pvd: the data lie in a folder F beside it. Another name is that of a folder, which holds all. */
 static gboolean open_series(Series *series, GError **error) {
   const char *output = series->export->output;
-  g_autofree char *above = g_path_get_dirname(output), *name = g_path_get_basename(output);
+  g_autofree char *path = named_output(output);
+  g_autofree char *above = g_path_get_dirname(path), *name = g_path_get_basename(path);
   gboolean is_file = g_str_has_suffix(name, ".pvd") && strlen(name) > strlen(".pvd");
   series->stem = is_file ? g_strndup(name, strlen(name) - strlen(".pvd")) : g_strdup(name);
   series->folder = g_strconcat(series->stem, "/", NULL);

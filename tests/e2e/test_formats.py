@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -381,7 +382,7 @@ def a_validator_and_an_importer_read_films(*_):
     scenes = sorted(path.stem for path in SCENES.glob("*.spore"))
     for scene in scenes:
         files.append(FOLDER / f"{scene}.glb")
-        step = float(json.loads(run(SPORE, "run", SCENES / f"{scene}.spore", "-n", "1", "--json"))["time_s"])
+        step = float(re.search(r'<solver [^>]*time_step="([^"]+)"', (SCENES / f"{scene}.spore").read_text())[1])
         export(scene, "gltf", files[-1], *(["--time", repr(20 * step), "--every", repr(10 * step)] if len(files) % 2 else []))
         Film(files[-1])
     if "assimp" in FEATURES:
@@ -464,8 +465,8 @@ def mujoco_runs_rigid_bodies(*_):
         report = export(scene.stem, "mjcf", FOLDER / "model.xml")
         said = json.loads(run(PROBE, FOLDER / "model.xml", "0.01"))
         lost = [sentence.split(":")[0] for sentence in report["lost"] if "no rigid body" in sentence]
-        names = json.loads(run(SPORE, "run", scene, "-n", "0", "--json"))["bodies"]
-        assert said["bodies"].keys() == {one["name"] for one in names} - set(lost) and said["warnings"] == 0, scene
+        names = re.findall(r'<body name="(\w+)"', scene.read_text())
+        assert said["bodies"].keys() == set(names) - set(lost) and said["warnings"] == 0, scene
     # In steps as short as these, both come near what is exact: MuJoCo is of first order. On the floor it has a contact law of its
     # own, by which the ball rolls elsewhere: then its height alone is compared.
     for scene, body, seconds, share in (("plate1-ovary", "ovary_right", "0.1", 0.005), ("minimal", "ball", "0.08", 0.005), ("minimal", "ball", "0.5", 0.05)):
@@ -505,6 +506,20 @@ def steps_that_were_not_solved_are_counted(*_):
         assert export("minimal", "vtk", FOLDER / "fast", *how)["unsolved"] == steps and (steps > 0) == any_steps
         said = run(SPORE, "export", SCENES / "minimal.spore", "--format", "vtk", "-o", FOLDER / "fast", *how)
         assert ("not solved" in said) == any_steps
+
+
+@check
+def folders_are_named_in_any_way(*_):
+    """A series goes into the folder that is named: new, there already, with a slash, or the present one"""
+    scene = SCENES.resolve() / "minimal.spore"
+    for folder, name in (("new", "new"), ("new", "new/"), ("here", "."), ("fresh", "fresh///")):
+        (FOLDER / "in").mkdir(exist_ok=True)
+        where = FOLDER / "in" / folder if name == "." else FOLDER / "in"
+        where.mkdir(exist_ok=True)
+        report = json.loads(run(SPORE, "export", scene, "--format", "vtk", "-o", name, "--json", cwd=where))
+        (_, blocks), = vtk_files.series(FOLDER / "in" / folder / f"{folder}.pvd")
+        assert blocks.keys() == {"ball", "floor"} and all((where / one["file"]).is_file() for one in report["written"])
+        assert {path.parent for path in (FOLDER / "in").rglob("*.vt?")} <= {FOLDER / "in" / one for one in ("new", "here", "fresh")}
 
 
 @check
