@@ -32,7 +32,8 @@ static gboolean make_mapping(const SporeSimulation *simulation, SporeDrawnPart *
   source->knots = source->parted = G_MAXUINT64;
   spore_free(source->places);
   source->places = NULL;
-  const SporeTetrahedralMesh *cells = part->kind == SPORE_PART_SURFACE ? source->cells : NULL;
+  gboolean divided = part->kind == SPORE_PART_SURFACE && level == SPORE_LOD_FINE; /* the finest level alone is cut */
+  const SporeTetrahedralMesh *cells = divided ? source->cells : NULL;
   if (!cells || spore_mapping_find_places(&source->mapping, cells->tetrahedra, cells->tetrahedron_count,
                                           cells->vertex_count, &source->places))
     return TRUE;
