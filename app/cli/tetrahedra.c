@@ -60,6 +60,10 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   report_change(cli, "volume", report->volume, report->volume_given, report->volume_change);
   report_change(cli, "area", report->area, report->area_given, report->area_change);
   spore_cli_number(cli, "filled_m3", report->filled);
+  if (options->apart) {
+    spore_cli_count(cli, "shared_faces", (gint64)report->shared_faces);
+    spore_cli_number(cli, "border_distance", report->border_distance);
+  }
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
   spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
   spore_cli_number(cli, "crumbs", report->small_components);
@@ -273,13 +277,15 @@ static const SporeReportMember members[] = {
         "in; "
         "inside: left out; cavity; sheet), in (index of the part in which most of what lies inside does, -1: none), "
         "triangles, holes, open_edges, area_m2, inside_share, least_depth_m, most_depth_m (below the surface of that "
-        "part)")},
+        "part), cells (with --pieces apart: of its own; the tag of these in the file is 1 + its index here)")},
     {"crumbs",
      N_("share of the volume that was left out: small pieces that came off where a part is thinner than a cell")},
     {"method", N_("direct, repaired, wrapped or voxels: what the surface needed; labels: of a label map")},
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},
-    {"shared_faces", N_("of a label map: between two organs")},
+    {"shared_faces", N_("of a label map, or with --pieces apart: between two organs or pieces")},
+    {"border_distance",
+     N_("with --pieces apart: largest distance of the surfaces between pieces from these faces, of the diagonal")},
     {"labels",
      N_("of a label map, of each organ: label, name, cells, share (of all cells), volume_m3, voxel_volume_m3, "
         "volume_change, "

@@ -19,6 +19,7 @@ void spore_cli_report_parts(SporeCli *cli, const SporeTetrahedraReport *report) 
     spore_cli_number(cli, "inside_share", piece->inside_share);
     spore_cli_number(cli, "least_depth_m", piece->depth[0]);
     spore_cli_number(cli, "most_depth_m", piece->depth[1]);
+    spore_cli_count(cli, "cells", (gint64)piece->cells);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

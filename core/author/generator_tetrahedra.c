@@ -8,7 +8,9 @@
 #include "core/scene/schema_tables.h"
 
 static const char *const methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
-static const char *const piece_choices[] = {"merged", "largest", NULL};
+/* In the order of their names. */
+enum { PIECES_MERGED, PIECES_LARGEST, PIECES_APART };
+static const char *const piece_choices[] = {"merged", "largest", "apart", NULL};
 
 static const SporeParameter tetrahedra_parameters[] = {
     NAME(SporeTetrahedraFields, N_("Name by which mechanical units refer to the tetrahedra.")),
@@ -96,8 +98,8 @@ static const SporeParameter tetrahedra_parameters[] = {
      .choices = piece_choices,
      FIELD(SporeTetrahedraFields, pieces),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Pieces of the mesh, as an organ and its vessels: merged into one solid, or the largest alone with what "
-               "lies inside it.")},
+     .doc = N_("Pieces of the mesh, as an organ and its vessels: merged into one solid; the largest alone with what "
+               "lies inside it; or apart, each with cells of its own that share faces where pieces touch.")},
     {.name = "gap",
      .type = SPORE_REAL,
      .unit = "m",
@@ -146,7 +148,8 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                   .curvature = fields->curvature,
                                   .fill = fields->fill,
                                   .hollow = fields->hollow,
-                                  .largest = fields->pieces == 1,
+                                  .largest = fields->pieces == PIECES_LARGEST,
+                                  .apart = fields->pieces == PIECES_APART,
                                   .gap = fields->gap,
                                   .regions = regions,
                                   .region_count = count};

@@ -1758,6 +1758,14 @@ def tetrahedra_of_parts():
     alone = report(*ask, "--parts", "organ")
     assert [(part["name"], part["role"]) for part in alone["parts"]] == [("organ", "bounds")], alone["parts"]
     assert [part["name"] for part in report(*ask, "--pieces", "largest")["parts"]] == ["organ", "chamber"]
+    apart = report("tetrahedra", "parts.obj", "--cells", 1000, "--pieces", "apart", "-o", "apart.mesh")
+    lines = (WORK / "apart.mesh").read_text().split("\n")
+    first = lines.index("Tetrahedra") + 2
+    tags = [int(line.split()[4]) for line in lines[first:first + apart["tetrahedra"]]]
+    assert [tags.count(1 + i) for i in range(3)] == [part["cells"] for part in apart["parts"]], apart["parts"]
+    assert min(part["cells"] for part in apart["parts"]) > 20 and apart["shared_faces"] > 20, apart
+    assert apart["border_distance"] < 0.02, apart["border_distance"]
+    refuses(*ask, "--pieces", "apart", "--curvature", 20, says=["kept apart", "leave these out"])
     assert "chamber: " in spore(*ask).stdout and "chamber: " not in spore(*ask, "--parts", "organ, vessel").stdout
     refuses(*ask, "--parts", "spleen", says=["spleen", "organ, vessel, chamber"])
 

@@ -1,5 +1,6 @@
 /* Shapes that are open or in pieces, and what falls into pieces. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cells.h"
@@ -243,6 +244,112 @@ static void test_sheet(void) {
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
+/* The number of the label's cells, and of the nodes that they share with those of another label. */
+static void count_cells(const SporeTetrahedralMesh *mesh, uint32_t label, size_t *cells, size_t *shared) {
+  bool *own = SPORE_NEW_ARRAY(bool, mesh->vertex_count), *other = SPORE_NEW_ARRAY(bool, mesh->vertex_count);
+  g_assert_true(own && other);
+  *cells = *shared = 0;
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++) {
+    *cells += mesh->labels[c] == label;
+    for (size_t k = 0; k < 4; k++) (mesh->labels[c] == label ? own : other)[mesh->tetrahedra[4 * c + k]] = true;
+  }
+  for (size_t v = 0; v < mesh->vertex_count; v++) *shared += own[v] && other[v];
+  spore_free(own);
+  spore_free(other);
+}
+
+/* m^3 of the cells with that label. */
+static double volume_of(const SporeTetrahedralMesh *mesh, uint32_t label) {
+  double volume = 0;
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++) {
+    SporeVec3 p[4];
+    for (size_t k = 0; k < 4; k++) p[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)mesh->tetrahedra[4 * c + k]);
+    if (mesh->labels[c] == label) volume += fabs(spore_vec3_volume(p[0], p[1], p[2], p[3])) / 6;
+  }
+  return volume;
+}
+
+/* A vessel that enters the organ, and a chamber in it, each with cells of its own: faces are shared, each has its
+ * volume, and the outside is as near as where all are merged. A second wall of half a millimetre gets none. */
+static void test_apart(void) {
+  static const char *const names[] = {"organ", "vessel"};
+  SporeTriangleMesh vessel = {0}, chamber = {0}, wall = {0};
+  shape_capsule(&vessel, 0.008, 0.03, 5);
+  shape_move(&vessel, 0, 0, 0.04);
+  shape_ball(&chamber, 0.012, 8);
+  shape_move(&chamber, 0, 0, -0.01);
+  shape_append(&vessel, &chamber);
+  shape_ball(&wall, 0.0295, 10);
+  shape_append(&vessel, &wall);
+  spore_triangle_mesh_clear(&chamber);
+  spore_triangle_mesh_clear(&wall);
+  uint32_t *parts;
+  SporeTriangleMesh organ = organ_with(&vessel, &parts);
+  SporeTetrahedraOptions options = {CHAIN, .cells = 2500, .apart = true, .parts = parts, .part_names = names};
+  Result result = fill(&organ, options, "voxels");
+  spore_free(parts);
+  size_t all = 0, cells, shared;
+  for (size_t i = 0; i < result.report.piece_count; i++) {
+    const SporeTetrahedraPiece *piece = result.report.piece + i;
+    count_cells(&result.mesh, (uint32_t)(i + 1), &cells, &shared);
+    g_test_message("%s: %zu cells, volume %.4g ml, %zu nodes shared", piece->name, cells,
+                   1e6 * volume_of(&result.mesh, (uint32_t)(i + 1)), shared);
+    g_assert_cmpuint(cells, ==, piece->cells);
+    g_assert_true(piece->parted == (cells > 0) && (cells == 0 || shared > 10));
+    all += cells;
+  }
+  g_assert_cmpuint(result.report.piece_count, ==, 4);
+  g_assert_false(result.report.piece[1].parted); /* the wall is the second in area */
+  g_assert_cmpuint(all, ==, result.mesh.tetrahedron_count);
+  check_cells(&result, 2500);
+  g_assert_cmpuint(result.report.pieces, ==, 1);
+  g_assert_cmpuint(result.report.shared_faces, >, 50);
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.01);
+  g_assert_cmpfloat(result.report.border_distance, <, 0.015); /* half an edge */
+  g_assert_cmpfloat(fabs(volume_of(&result.mesh, 4) / VOLUME(0.012) - 1), <, 0.1);
+  char *remarks = spore_tetrahedra_remarks(&result.mesh, &options, &result.report);
+  g_test_message("%s", remarks);
+  g_assert_nonnull(strstr(remarks, "cells of its own: "));
+  g_assert_nonnull(strstr(remarks, "pieces kept apart share "));
+  g_assert_nonnull(strstr(remarks, "a wall inside "));
+  g_free(remarks);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  SporeTriangleMesh lone = {0};
+  shape_ball(&lone, 0.03, 8);
+  check_refused(&lone, (SporeTetrahedraOptions){CHAIN, .cells = 300, .apart = true, .curvature = 20}, SPORE_ERROR_INPUT,
+                "leave these out");
+  check_refused(&lone, (SporeTetrahedraOptions){.method = SPORE_TETRAHEDRA_DIRECT, .cells = 300, .apart = true},
+                SPORE_ERROR_INPUT, "leave these out");
+  spore_triangle_mesh_clear(&lone);
+}
+
+/* Where so few cells are too far from the surface, that is said with a number that does: meshed again with that
+ * number, they are within the tolerance, and nothing is said. */
+static void test_far(void) {
+  for (int shape = 0; shape < 3; shape++) {
+    size_t cells = 200;
+    for (int turn = 0; turn < 2; turn++) {
+      SporeTriangleMesh organ = {0}, vessel = {0};
+      shape_ball(&organ, 0.03, 12);
+      shape_capsule(&vessel, shape == 1 ? 0.002 : 0.005, 0.04, 6);
+      shape_move(&vessel, 0, 0, 0.04);
+      if (shape) shape_append(&organ, &vessel);
+      spore_triangle_mesh_clear(&vessel);
+      const SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_VOXELS, .cells = cells, .tolerance = 0.01};
+      Result result = fill(&organ, options, "voxels");
+      char *remarks = spore_tetrahedra_remarks(&result.mesh, &options, &result.report);
+      const char *told = strstr(remarks, ": try ");
+      g_test_message("%zu cells: %s", cells, remarks);
+      g_assert_true((told != NULL) == (turn == 0));
+      if (told) cells = (size_t)strtoul(told + strlen(": try "), NULL, 10);
+      g_assert_true((result.report.hausdorff > options.tolerance) == (turn == 0));
+      g_free(remarks);
+      spore_tetrahedral_mesh_clear(&result.mesh);
+    }
+  }
+}
+
 /* Where pieces lie in one another, the chain does not try what cannot make one solid of them. */
 static void test_mixed(void) {
   SporeTriangleMesh organ = {0}, vessel = {0};
@@ -269,5 +376,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/tetrahedra/largest", test_largest);
   g_test_add_func("/tetrahedra/sheet", test_sheet);
   g_test_add_func("/tetrahedra/mixed", test_mixed);
+  g_test_add_func("/tetrahedra/apart", test_apart);
+  g_test_add_func("/tetrahedra/far", test_far);
   return g_test_run();
 }

@@ -104,6 +104,14 @@ typedef struct SporeSkinPoints {
 /* At most `most` of the places (count x 3), evenly chosen; hosts by distance alone. False: no memory. */
 bool spore_skin_points_create(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
                               size_t count, size_t most, SporeError *error);
+/* The same of places on borders between cells of two labels, whose hosts are the faces there. Appended to *points;
+ * where there is no such face, nothing is. False: no memory; *points can then only be cleared. */
+bool spore_skin_points_add_borders(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
+                                   size_t count, size_t most, SporeError *error);
+/* The faces between cells of two labels, as triangles: *triangles (3 x *count) from spore_allocate. False: no memory.
+ */
+bool spore_tetrahedral_mesh_borders(const SporeTetrahedralMesh *mesh, uint32_t **triangles, size_t *count,
+                                    SporeError *error);
 void spore_skin_points_clear(SporeSkinPoints *points);
 
 /* Raises the least quality of a cell (spore_tetrahedron_quality) while it is below `goal` and improves: vertices

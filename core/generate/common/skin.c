@@ -103,26 +103,61 @@ void spore_skin_clear(SporeSkin *skin) {
   *skin = (SporeSkin){0};
 }
 
+/* Appends places whose hosts are the nearest of the triangles, which are faces of the mesh. */
+static bool add_points(SporeSkinPoints *points, const SporeTriangleMesh *faces, const double *places, size_t count,
+                       size_t most, SporeError *error) {
+  const size_t taken = count < most ? count : most, had = points->count, all = had + taken;
+  double *to = spore_reallocate(points->places, 3 * had, 3 * all, sizeof *to);
+  if (to) points->places = to;
+  uint32_t *hosts = to ? spore_reallocate(points->hosts, 3 * had, 3 * all, sizeof *hosts) : NULL;
+  if (hosts) points->hosts = hosts;
+  double *off = hosts ? spore_reallocate(points->off, had, all, sizeof *off) : NULL;
+  if (off) points->off = off;
+  SporeBvh *tree = off ? spore_bvh_create(faces, error) : NULL;
+  if (!tree) return off ? false : spore_mesh_no_memory(error);
+  for (size_t i = 0; i < taken; i++) {
+    uint32_t triangle = 0;
+    memcpy(to + 3 * (had + i), places + 3 * (i * count / taken), 3 * sizeof *to);
+    off[had + i] = spore_bvh_distance(tree, spore_vec3_load(to + 3 * (had + i)), NULL, &triangle);
+    memcpy(hosts + 3 * (had + i), faces->triangles + 3 * (size_t)triangle, 3 * sizeof *hosts);
+  }
+  points->count = all;
+  spore_bvh_free(tree);
+  return true;
+}
+
 bool spore_skin_points_create(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
                               size_t count, size_t most, SporeError *error) {
   SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
-  SporeBvh *tree = NULL;
-  const size_t taken = count < most ? count : most;
-  *points = (SporeSkinPoints){taken, SPORE_NEW_ARRAY(double, 3 * taken), SPORE_NEW_ARRAY(uint32_t, 3 * taken),
-                              SPORE_NEW_ARRAY(double, taken)};
-  bool done = (points->places && points->hosts && points->off &&
-               spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count)) ||
-              spore_mesh_no_memory(error);
-  done = done && (tree = spore_bvh_create(&boundary, error)) != NULL;
-  for (size_t i = 0; done && i < taken; i++) {
-    uint32_t triangle = 0;
-    memcpy(points->places + 3 * i, places + 3 * (i * count / taken), 3 * sizeof(double));
-    points->off[i] = spore_bvh_distance(tree, spore_vec3_load(points->places + 3 * i), NULL, &triangle);
-    memcpy(points->hosts + 3 * i, boundary.triangles + 3 * (size_t)triangle, 3 * sizeof(uint32_t));
-  }
-  spore_bvh_free(tree);
+  *points = (SporeSkinPoints){0};
+  bool done = (spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count) ||
+               spore_mesh_no_memory(error)) &&
+              add_points(points, &boundary, places, count, most, error);
   spore_free(boundary.triangles);
   if (!done) spore_skin_points_clear(points);
+  return done;
+}
+
+bool spore_tetrahedral_mesh_borders(const SporeTetrahedralMesh *mesh, uint32_t **triangles, size_t *count,
+                                    SporeError *error) {
+  SporeSkin skin = {0};
+  const bool done = list_faces(&skin, mesh) || spore_mesh_no_memory(error);
+  *count = 0;
+  for (size_t f = 0; done && f < skin.face_count; f++)
+    if (skin.sides[2 * f + 1]) memmove(skin.corners + 3 * (*count)++, skin.corners + 3 * f, 3 * sizeof *skin.corners);
+  *triangles = done ? skin.corners : NULL;
+  if (done) skin.corners = NULL;
+  spore_skin_clear(&skin);
+  return done;
+}
+
+bool spore_skin_points_add_borders(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
+                                   size_t count, size_t most, SporeError *error) {
+  SporeTriangleMesh borders = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  if (!spore_tetrahedral_mesh_borders(mesh, &borders.triangles, &borders.triangle_count, error)) return false;
+  const bool done =
+      borders.triangle_count == 0 || count == 0 || add_points(points, &borders, places, count, most, error);
+  spore_free(borders.triangles);
   return done;
 }
 

@@ -22,8 +22,9 @@
 #define NEAR 0.9 /* of the tolerance: the wanted distance of a lattice */
 #define POINTS 4 /* of the surface, for each cell */
 #define LEAST_POINTS 1000
-#define GOAL 14    /* degrees, for the least angle */
-#define REGION 0.8 /* edge of the lattice, as a share of the least size of a region */
+#define BORDER_TURNS 2 /* of moving the borders between pieces, before the lattice is coarsened */
+#define GOAL 14        /* degrees, for the least angle */
+#define REGION 0.8     /* edge of the lattice, as a share of the least size of a region */
 
 /* Edge of a lattice with this number of cells. */
 static double edge_of(const SporeTetrahedraWork *work, double cells) {
@@ -125,8 +126,7 @@ static bool reduce(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeE
   if (!done) return false;
   size_edges(&plan, work, mesh);
   size_t cells = work->options.cells ? work->options.cells : (size_t)ceil(count_of(&plan.grid, mesh));
-  done = spore_skin_points_create(&points, mesh, work->bounding, work->bounding_count, POINTS * cells + LEAST_POINTS,
-                                  error) &&
+  done = spore_tetrahedra_points(work, mesh, POINTS * cells + LEAST_POINTS, &points, error) &&
          spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, &plan.grid, cells,
                                   SPORE_TETRAHEDRA_KEPT, &progress, error) &&
          spore_tetrahedral_mesh_drop_unused(mesh, error);
@@ -142,10 +142,15 @@ bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *me
   *mesh = (SporeTetrahedralMesh){0};
   work->share = 0.4 * share;
   bool done = choose_fine(work, &cells, error) && make_fine(work, cells, mesh, error);
+  if (done && work->options.apart)
+    done = spore_tetrahedra_part(work, mesh, error) &&
+           spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), BORDER_TURNS, mesh, error);
   work->fraction = from + 0.4 * share, work->share = 0.5 * share;
   done = done && reduce(work, mesh, error);
   work->fraction = from + 0.9 * share, work->share = 0.1 * share;
-  done = done && spore_tetrahedra_improve(mesh, NULL, spore_tetrahedra_bounds(work), GOAL, &progress, error) &&
+  done = done &&
+         spore_tetrahedra_improve(mesh, mesh->labels ? &mesh->labels : NULL, spore_tetrahedra_bounds(work), GOAL,
+                                  &progress, error) &&
          spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), 4, mesh, error) &&
          spore_tetrahedral_mesh_validate(mesh, error);
   work->fraction = from, work->share = share;

@@ -152,6 +152,17 @@ bool spore_tetrahedra_look_at_pieces(SporeTetrahedraWork *work, SporeError *erro
   return done;
 }
 
+bool spore_tetrahedra_piece_trees(const SporeTetrahedraWork *work, SporeBvh **trees, SporeError *error) {
+  Looks looks;
+  const bool done = open_looks(work, work->parts, &looks, error);
+  for (size_t i = 0; done && i < looks.count; i++) {
+    trees[i] = looks.look[i].shell.tree;
+    looks.look[i].shell.tree = NULL;
+  }
+  clear_looks(&looks);
+  return done;
+}
+
 /* Whether the piece lies wholly inside the other one, which is closed. */
 static bool is_within(const Look *look, const Look *other) {
   return other->piece->closed && spore_piece_fits(look->piece, other->piece) &&
@@ -227,7 +238,7 @@ static char *called(const SporeTetrahedraReport *report, int number) {
   return alike > 1 ? g_strdup_printf("%s (%d)", name, before) : g_strdup(name);
 }
 
-static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
+static char *merged_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
   g_autofree char *in = piece->in >= 0 ? called(report, piece->in) : g_strdup(_("others"));
   const double least = 1e3 * piece->depth[0], most = 1e3 * piece->depth[1];
   switch (piece->role) {
@@ -247,14 +258,25 @@ static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedr
   }
 }
 
-void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraReport *report) {
+/* What a piece is to the solid, and its cells where pieces are kept apart. */
+static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece, bool apart) {
+  if (!apart || !piece->parted) return merged_text(report, piece);
+  g_autofree char *in = piece->in >= 0 && report->piece[piece->in].parted ? called(report, piece->in) : NULL;
+  if (!piece->cells) return g_strdup(_("finer than the cells, it has none; ask for more or smaller cells"));
+  if (!in) return g_strdup_printf(_("cells of its own: %zu"), piece->cells);
+  return g_strdup_printf(_("cells of its own: %zu; %.0f %% of it lie inside, most of that in %s"), piece->cells,
+                         100 * piece->inside_share, in);
+}
+
+void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *options,
+                                 const SporeTetrahedraReport *report) {
   if (report->unwanted)
     g_string_append_printf(text, _("pieces left out, as asked: %zu; the largest one is kept, and what lies in it\n"),
                            report->unwanted);
   if (report->piece_count < 2 && !report->piece[0].holes) return;
   for (size_t i = 0; i < report->piece_count; i++) {
     const SporeTetrahedraPiece *piece = report->piece + i;
-    g_autofree char *name = called(report, (int)i), *role = role_text(report, piece);
+    g_autofree char *name = called(report, (int)i), *role = role_text(report, piece, options->apart);
     g_string_append_printf(text, _("%s: %zu triangles, %.3g x %.3g x %.3g mm; %s"), name, piece->triangles,
                            1e3 * piece->size[0], 1e3 * piece->size[1], 1e3 * piece->size[2], role);
     if (piece->holes && piece->role != SPORE_PIECE_SHEET && piece->role != SPORE_PIECE_INSIDE)

@@ -8,6 +8,7 @@
 #include "core/io/tetrahedra_wire.h"
 #include "core/mesh/bvh.h"
 
+#define SPORE_TETRAHEDRA_TOLERANCE 0.01                       /* of the diagonal, where none is given */
 #define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */
 #define SPORE_TETRAHEDRA_KEPT (SPORE_TETRAHEDRA_ANGLE + 0.75) /* kept by moves that serve another purpose */
 #define SPORE_TETRAHEDRA_CLOSING 0.3 /* a winding number nearer than this to one half lies in a hole of the surface */
@@ -33,6 +34,8 @@ typedef struct SporeTetrahedraWork {
   double volume, area;       /* of the solid and of its boundary */
   double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside the solid */
   size_t bounding_count, inner_count;
+  double *borders; /* with options.apart: the inner points between two pieces that are kept apart (border_count x 3) */
+  size_t border_count;
   SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* of the surface */
   size_t unwanted;                                     /* pieces that were left out as asked */
   size_t piece_count, pieces;                          /* told of, and all */
@@ -62,13 +65,17 @@ static inline bool spore_tetrahedra_progress(const SporeTetrahedraWork *work, do
 bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error);
 /* Fills piece, piece_count, pieces and mixed. */
 bool spore_tetrahedra_look_at_pieces(SporeTetrahedraWork *work, SporeError *error);
+/* The trees of work->piece, in that order: piece_count of them, in an array of SPORE_TETRAHEDRA_PIECES. Each is freed
+ * by spore_bvh_free. False: no memory or cancelled; none is left. */
+bool spore_tetrahedra_piece_trees(const SporeTetrahedraWork *work, SporeBvh **trees, SporeError *error);
 /* Turns closed pieces outward or inward, so that one inside another one bounds a cavity, and one inside a cavity is
  * solid. Pieces that come turned inward stay so. Looks at the SPORE_TETRAHEDRA_PIECES largest pieces. */
 bool spore_tetrahedra_hollow(SporeTetrahedraWork *work, SporeError *error);
 /* Keeps the piece of the largest area, and the pieces that lie wholly inside it. Sets work->unwanted. */
 bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error);
 /* Appends a line about each piece of the report, where there are several or one has holes. */
-void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraReport *report);
+void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *options,
+                                 const SporeTetrahedraReport *report);
 /* Largest distances between the mesh and the points that bound the solid, both ways, and from the inner points. */
 bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
                                 double *inner, double *area, SporeError *error);
@@ -115,6 +122,17 @@ void spore_tetrahedra_clear_thin(SporeTetrahedraThin *thin);
 bool spore_tetrahedra_stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error);
 /* Makes such a lattice finer than the wanted cells, then coarsens it where this costs least. */
 bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
+
+/* Gives each cell to a piece: mesh->labels. Sets `parted` of work->piece, and work->borders. False: no memory or
+ * cancelled. */
+bool spore_tetrahedra_part(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
+/* Fills `cells` of work->piece, and shared_faces and border_distance of the report. */
+bool spore_tetrahedra_measure_parted(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh,
+                                     SporeTetrahedraReport *report, SporeError *error);
+/* At most `most` points that bound the solid, and as many on work->borders, with their hosts. The caller clears them.
+ */
+bool spore_tetrahedra_points(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, size_t most,
+                             SporeSkinPoints *points, SporeError *error);
 
 /* Drops small disconnected pieces of the cells whose piece of the surface has a larger piece of cells. Such pieces
  * break off at a part thinner than a cell. Fills pieces, pieces_given and small_components of the report. */

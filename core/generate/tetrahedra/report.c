@@ -7,6 +7,7 @@
 #include "core/generate/tetrahedra/private.h"
 
 #define LEAST_SAID 5e-4 /* share of the surface: a smaller share would print as 0.0 % and gets no remark */
+#define MOST_MORE 8.0   /* times as many cells as there are: edges of half the length */
 #define MANY 1.1        /* times as many cells as wanted */
 
 /* Remarks on pieces of the mesh that are not connected, where the surface is. */
@@ -24,8 +25,8 @@ static void say_apart(GString *text, const SporeTetrahedraReport *report) {
 }
 
 /* Remarks on differences between the solid and the surface, and what to do about them. */
-static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
-  if (report->inner_share >= LEAST_SAID)
+static void say_left_out(GString *text, const SporeTetrahedraOptions *options, const SporeTetrahedraReport *report) {
+  if (report->inner_share >= LEAST_SAID && !options->apart)
     g_string_append_printf(
         text,
         _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
@@ -44,6 +45,27 @@ static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
         _("%.1f %% of the surface bound slits that are too narrow for the cells of the lattice: they are made "
           "about %.3g mm wide; ask for more cells, or for smaller ones there by a region\n"),
         100 * report->widened, 1e3 * report->thickness);
+}
+
+/* A remark on cells that are farther from the surface than asked for. The distance of smooth parts falls with the
+ * square of the edges' length; parts that were lost as too thin come back in finer cells. */
+static void say_far(GString *text, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
+                    const SporeTetrahedraReport *report) {
+  const double wanted = options->tolerance > 0 ? options->tolerance : SPORE_TETRAHEDRA_TOLERANCE;
+  if (!options->cells || !(report->hausdorff > wanted)) return;
+  const double ratio = report->hausdorff / wanted, count = (double)mesh->tetrahedron_count;
+  const double more = 100 * ceil(fmin(ratio * ratio, MOST_MORE) * count / 100);
+  g_string_append_printf(
+      text, _("the cells are %.2g %% of the diagonal away from the surface, %.2g %% were asked for: try %.0f cells\n"),
+      100 * report->hausdorff, 100 * wanted, more);
+}
+
+/* A remark on pieces that were kept apart. */
+static void say_apart_faces(GString *text, const SporeTetrahedraOptions *options, const SporeTetrahedraReport *report) {
+  if (!options->apart) return;
+  g_string_append_printf(text,
+                         _("pieces kept apart share %zu faces, at most %.2f %% of the diagonal from their surfaces\n"),
+                         report->shared_faces, 100 * report->border_distance);
 }
 
 /* Remarks on requests that were not met. */
@@ -65,9 +87,11 @@ static void say_missed(GString *text, const SporeTetrahedralMesh *mesh, const Sp
 char *spore_tetrahedra_remarks(const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
                                const SporeTetrahedraReport *report) {
   GString *text = g_string_new(NULL);
-  spore_tetrahedra_say_pieces(text, report);
+  spore_tetrahedra_say_pieces(text, options, report);
   say_apart(text, report);
-  say_left_out(text, report);
+  say_left_out(text, options, report);
+  say_apart_faces(text, options, report);
+  say_far(text, mesh, options, report);
   say_missed(text, mesh, options, report);
   return g_string_free(text, FALSE);
 }
@@ -95,6 +119,7 @@ bool spore_tetrahedra_measure(SporeTetrahedraWork *work, const SporeTetrahedralM
   if (!spore_tetrahedra_progress(work, 0, _("measuring the distance"), error)) return false;
   spore_tetrahedral_mesh_quality(mesh, &report->quality);
   report_left_out(work, report);
+  if (mesh->labels && !spore_tetrahedra_measure_parted(work, mesh, report, error)) return false;
   report_pieces(work, report);
   return spore_tetrahedra_distances(work, mesh, &report->hausdorff, &report->inner_distance, &report->area, error);
 }

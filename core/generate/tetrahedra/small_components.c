@@ -56,6 +56,7 @@ static void drop(SporeTetrahedralMesh *mesh, const uint32_t *pieces, const Piece
   size_t kept = 0;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
     if (found[pieces[t]].small) continue;
+    if (mesh->labels) mesh->labels[kept] = mesh->labels[t];
     memmove(mesh->tetrahedra + 4 * kept++, mesh->tetrahedra + 4 * t, 4 * sizeof *mesh->tetrahedra);
   }
   mesh->tetrahedron_count = kept;

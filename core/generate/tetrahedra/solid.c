@@ -151,6 +151,15 @@ bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetr
   return done;
 }
 
+bool spore_tetrahedra_points(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, size_t most,
+                             SporeSkinPoints *points, SporeError *error) {
+  if (!spore_skin_points_create(points, mesh, work->bounding, work->bounding_count, most, error)) return false;
+  if (!mesh->labels || spore_skin_points_add_borders(points, mesh, work->borders, work->border_count, most, error))
+    return true;
+  spore_skin_points_clear(points);
+  return false;
+}
+
 static double distance_of(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeError *error) {
   double hausdorff, inner, area;
   return spore_tetrahedra_distances(work, mesh, &hausdorff, &inner, &area, error) ? hausdorff : -1;
@@ -164,8 +173,8 @@ bool spore_tetrahedra_near(const SporeTetrahedraWork *work, const SporeBvh *surf
     SporeSkinPoints points;
     memcpy(kept, mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
     done = spore_tetrahedra_progress(work, (double)turn / turns, _("fitting the cells"), error);
-    if (!done || !(done = spore_skin_points_create(&points, mesh, work->bounding, work->bounding_count,
-                                                   POINTS * mesh->tetrahedron_count + LEAST_POINTS, error)))
+    if (!done ||
+        !(done = spore_tetrahedra_points(work, mesh, POINTS * mesh->tetrahedron_count + LEAST_POINTS, &points, error)))
       break;
     done = spore_tetrahedra_approach(mesh, surface, &points, ROUNDS, BEYOND * work->options.tolerance,
                                      SPORE_TETRAHEDRA_KEPT, error);

@@ -10,8 +10,7 @@
 #include "core/generate/common/common.h"
 #include "core/generate/tetrahedra/private.h"
 
-#define TOLERANCE 0.01 /* of the diagonal */
-#define LOOKING 0.05   /* share of the progress, before and after the work */
+#define LOOKING 0.05 /* share of the progress, before and after the work */
 #define MOST_WRAPS 3
 #define MOST_WRAPPED 40000.0 /* most triangles of a closer wrap */
 #define CLOSER 4             /* halving alpha gives at least this many times the triangles */
@@ -64,13 +63,20 @@ static gboolean check_options(const char *place, const SporeTetrahedraOptions *o
   if (!(options->tolerance >= 0 && options->tolerance < 1))
     return refuse_option(place, error,
                          _("the tolerance is %g of the diagonal; expected 0 (for %g) to 1; give another one"),
-                         options->tolerance, TOLERANCE);
+                         options->tolerance, SPORE_TETRAHEDRA_TOLERANCE);
   if (options->curvature != 0 && !(options->curvature >= 5 && options->curvature <= 90))
     return refuse_option(place, error,
                          _("the curvature is %g degrees an edge; expected 0 (none) or 5 to 90; give another one"),
                          options->curvature);
   if (!(options->gap >= 0 && isfinite(options->gap)))
     return refuse_option(place, error, _("the gap is %g m; expected 0 or a length; give another one"), options->gap);
+  if (options->apart && (options->curvature > 0 || options->gap > 0 || options->region_count ||
+                         (options->method != SPORE_TETRAHEDRA_METHODS && options->method != SPORE_TETRAHEDRA_VOXELS)))
+    return refuse_option(
+        place, error,
+        _("pieces are to be kept apart, which a lattice does; expected the method left open or %s, no curvature, "
+          "no gap and no regions; leave these out"),
+        spore_tetrahedra_method_names[SPORE_TETRAHEDRA_VOXELS]);
   return check_regions(place, options, error);
 }
 
@@ -91,7 +97,8 @@ static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surfac
   work->options = *options;
   work->options.size /= report->diagonal;
   work->options.gap /= report->diagonal;
-  if (!(options->tolerance > 0)) work->options.tolerance = TOLERANCE;
+  if (!(options->tolerance > 0)) work->options.tolerance = SPORE_TETRAHEDRA_TOLERANCE;
+  if (options->apart) work->options.method = SPORE_TETRAHEDRA_VOXELS;
   for (gsize i = 0; i < options->region_count; i++) {
     SporeGenerateRegion *region = work->regions + i;
     *region = options->regions[i];
@@ -119,6 +126,7 @@ static void clear(SporeTetrahedraWork *work) {
   spore_tetrahedra_clear_thin(&work->thin);
   spore_free(work->bounding);
   spore_free(work->inner);
+  spore_free(work->borders);
 }
 
 /* Largest distance between a prepared surface and the bounds of the solid. Where the prepared surface closes a hole of

@@ -33,7 +33,10 @@ typedef struct SporeTetrahedraOptions {
   bool fill;        /* cavities inside are filled */
   bool hollow;      /* a closed piece inside another one bounds a cavity; else what it encloses is solid */
   bool largest;     /* the piece of the largest area is meshed, with what lies inside it; else all are, as one solid */
-  double gap;       /* m: openings narrower than this are closed by wrapping; 0: wrapping uses about half an edge */
+  bool apart; /* each piece gets cells of its own, with shared faces where pieces touch: result->labels has 1 + the
+                 piece of the report of each cell. Where pieces overlap, the one of the least area has the place.
+                 By a lattice; not with curvature, a gap, regions or another method */
+  double gap; /* m: openings narrower than this are closed by wrapping; 0: wrapping uses about half an edge */
   const SporeGenerateRegion *regions;
   size_t region_count;
   const uint32_t *parts;         /* of each triangle the part of its file; NULL: of one */
@@ -60,6 +63,8 @@ typedef struct SporeTetrahedraPiece {
   double size[3], area; /* m along the axes, m^2 */
   double inside_share;  /* share of the area that lies inside the solid */
   double depth[2];      /* least and largest distance from the surface of the piece `in`, m, of what lies inside */
+  bool parted;          /* with options.apart: the piece is to have cells of its own */
+  size_t cells;         /* that it has; a piece finer than the cells has none */
 } SporeTetrahedraPiece;
 
 typedef struct SporeTetrahedraReport {
@@ -78,6 +83,9 @@ typedef struct SporeTetrahedraReport {
   double area, area_given, area_change; /* of the boundaries, m^2, m^2, fraction */
   size_t pieces, pieces_given; /* connected pieces: of the cells, by shared vertices; of the surface, by shared edges */
   size_t unwanted;             /* pieces that were left out by options.largest */
+  size_t shared_faces;         /* with options.apart: between cells of two pieces */
+  double border_distance;      /* largest distance of the surfaces between these pieces from the faces shared there, of
+                                  the diagonal */
   size_t piece_count, piece_total;                     /* told of (those of the largest area), and all */
   SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* piece_count, the largest area first */
   double small_components; /* share of the volume: small pieces left out, whose piece of the surface has a larger piece
