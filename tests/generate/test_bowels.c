@@ -83,6 +83,33 @@ static SporeVec3 wall_beside(const SporeTriangleMesh *mesh, const SporeCurve *kn
   return spore_vec3_add_scaled(p, t, toward);
 }
 
+/* Bowels grown together so widely that the line may take a short way: where it leaves the known line, the share of the
+ * surface says so. */
+static void test_grown_together(void) {
+  static const BowelShape shapes[] = {
+      {4, 1, 9.2, .gap = 0.2, .waves = 0.2, .bridges = 3, .bridge = 0.73},
+      {2, 1, 7.6, .gap = 0.31, .waves = 0.2, .bridges = 3, .bridge = 0.81, .seam = 1.4},
+      {4, 2, 4.3, .gap = 0.33, .waves = 0.2, .bridges = 7, .bridge = 0.82, .seam = 2.2},
+      {4, 2, 5.8, .gap = 0.26, .waves = 0.2, .bridges = 11, .bridge = 0.74},
+  };
+  for (size_t k = 0; k < G_N_ELEMENTS(shapes); k++) {
+    SporeTriangleMesh mesh;
+    SporeCurve known, line;
+    SporeCentrelineReport report;
+    SporeError error = SPORE_ERROR_INIT;
+    double farthest;
+    bowel_create(&shapes[k], &mesh, &known);
+    if (find(&mesh, NULL, &line, &report, &farthest, &error)) {
+      BowelFit fit = bowel_fit(&known, &line);
+      g_test_message("within %.3f of it", fit.within);
+      g_assert_true(fit.within >= 0.98 || report.cover < 0.95);
+      spore_curve_clear(&line);
+    }
+    spore_curve_clear(&known);
+    spore_triangle_mesh_clear(&mesh);
+  }
+}
+
 /* Two places picked on the wall, there where the next loop touches: the line runs between their sections, through the
  * loop that they were picked on and all loops between. */
 static void test_ends(void) {
@@ -197,6 +224,7 @@ int main(int argc, char **argv) {
     g_autofree char *path = g_strdup_printf("/bowels/%s", bowels[i].name);
     g_test_add_data_func(path, &bowels[i], test_bowel);
   }
+  g_test_add_func("/bowels/grown together widely", test_grown_together);
   g_test_add_func("/bowels/ends", test_ends);
   g_test_add_func("/bowels/two_pieces", test_two_pieces);
   g_test_add_func("/bowels/hole", test_hole);

@@ -14,7 +14,7 @@
 #include "tests/ways.h"
 
 /* Made before anything fails. */
-static SporeTriangleMesh ball, coarse, box, capsule;
+static SporeTriangleMesh ball, coarse, box, capsule, two;
 
 static bool surface(GError **to) {
   SporeTriangleMesh result = {0};
@@ -85,6 +85,16 @@ static bool lattice(GError **to) {
   return fine;
 }
 
+/* A vessel that enters an organ, kept apart. */
+static bool apart(GError **to) {
+  SporeTetrahedralMesh cells = {0};
+  SporeTetrahedraReport report;
+  SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_VOXELS, .size = 0.02, .apart = true};
+  bool fine = spore_tetrahedra_from_mesh("two", &two, &options, &cells, &report, NULL, to);
+  spore_tetrahedral_mesh_clear(&cells);
+  return fine;
+}
+
 /* Two organs that touch. */
 #define VOXELS 4
 static bool label_cells(GError **to) {
@@ -128,18 +138,21 @@ int main(int argc, char **argv) {
       {"/generate/memory/surface", surface, G_MAXUINT},       {"/generate/memory/wall", wall, 8},
       {"/generate/memory/operations", operations, G_MAXUINT}, {"/generate/memory/centreline", centreline, 8},
       {"/generate/memory/sheet", sheet, G_MAXUINT},           {"/generate/memory/lattice", lattice, 8},
-      {"/generate/memory/labels", label_cells, G_MAXUINT}};
+      {"/generate/memory/labels", label_cells, G_MAXUINT},    {"/generate/memory/apart", apart, 6}};
   g_test_init(&argc, &argv, NULL);
   shape_ball(&ball, 0.02, 6);
   shape_ball(&coarse, 0.02, 4);
   shape_capsule(&capsule, 0.01, 0.012, 4);
+  shape_ball(&two, 0.02, 4);
+  shape_move(&two, 0, 0, 0.02);
+  shape_append(&two, &capsule);
   shape_box(&box, (double[3]){0, 0, 0}, (double[3]){0.02, 0.02, 0.02}, 4);
   shape_unweld(&box);
   box.triangle_count--;
   for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) g_test_add_data_func(parts[i].path, &parts[i], fail_each);
   int status = g_test_run();
   ways_clear();
-  SporeTriangleMesh *inputs[] = {&ball, &coarse, &capsule, &box};
+  SporeTriangleMesh *inputs[] = {&ball, &coarse, &capsule, &box, &two};
   for (size_t i = 0; i < G_N_ELEMENTS(inputs); i++) spore_triangle_mesh_clear(inputs[i]);
   return status;
 }
