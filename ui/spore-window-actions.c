@@ -38,13 +38,6 @@ static void act_rename_dialog(GSimpleAction *action, GVariant *parameter, gpoint
   spore_outliner_rename(SPORE_OUTLINER(((SporeWindow *)data)->outliner));
 }
 
-static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  SporeObject *object = spore_editor_document_selected(self->document);
-  g_autoptr(GError) error = NULL;
-  if (object && !spore_document_remove(document_of(self), object, &error)) spore_window_failed(self, error);
-}
-
 static void act_set_property(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   const char *path, *name, *value;
@@ -115,13 +108,6 @@ static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer d
   spore_editor_document_select(self->document, spore_object_id(probe));
   g_action_group_activate_action(G_ACTION_GROUP(self), "tool", g_variant_new_string("probe"));
   spore_viewport_frame_soon(SPORE_VIEWPORT(self->viewport));
-}
-
-static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  SporeObject *body = spore_window_body_to_work_on(self);
-  g_autoptr(GError) error = NULL;
-  if (body && !spore_edit_add_pin(document_of(self), body, &error)) spore_window_failed(self, error);
 }
 
 /* Simulation. */
@@ -233,24 +219,6 @@ static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data)
   spore_viewport_frame(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
 }
 
-/* The selected body is hidden, or shown alone. */
-static void act_hide(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  SporeObject *body = spore_editor_document_selected_body(self->document);
-  gboolean alone = g_str_equal(g_action_get_name(G_ACTION(action)), "isolate");
-  if (!body) return;
-  (alone ? spore_viewport_isolate : spore_viewport_hide)(SPORE_VIEWPORT(self->viewport), spore_object_id(body));
-  spore_window_update_actions(self);
-  spore_window_show_hint(self);
-}
-
-static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  spore_viewport_show_all(SPORE_VIEWPORT(self->viewport));
-  spore_window_update_actions(self);
-  spore_window_show_hint(self);
-}
-
 static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) {
   spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
 }
@@ -309,7 +277,6 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"select", act_select, "s"},
       {"rename", act_rename, "s"},
       {"rename-dialog", act_rename_dialog},
-      {"delete", act_delete},
       {"set-property", act_set_property, "(sss)"},
       {"unset-property", act_unset_property, "(ss)"},
       {"set-model", act_set_model, "s"},
@@ -318,7 +285,6 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"place-region", act_place_region, "s"},
       {"remove-region", act_remove_region, "s"},
       {"add-probe", act_add_probe},
-      {"add-pin", act_add_pin},
       {"play", act_play},
       {"pause", act_pause},
       {"play-pause", act_play_pause},
@@ -342,9 +308,6 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"choose-point", act_choose_point, "u"},
       {"apply-point", act_apply_point},
       {"frame", act_frame},
-      {"hide", act_hide},
-      {"isolate", act_hide},
-      {"show-all", act_show_all},
       {"view", act_view, "s"},
       {"filter", act_filter},
       {"report", act_report, "s"},

@@ -15,12 +15,12 @@
 
 static void take_import(SporeWindow *self, const SporeImport *import) {
   g_autoptr(GError) failure = NULL;
-  SporeObject *body = spore_edit_import(spore_editor_document_get(self->document), import, &failure);
-  if (!body) {
+  g_autoptr(GPtrArray) bodies = spore_edit_import(spore_editor_document_get(self->document), import, &failure);
+  if (!bodies) {
     spore_window_failed(self, failure);
     return;
   }
-  spore_editor_document_select(self->document, spore_object_id(body));
+  spore_window_select(self, bodies);
   for (guint i = 0; i < import->bodies->len; i++) {
     const SporeImportBody *made = g_ptr_array_index(import->bodies, i);
     spore_window_log(self, _("Imported %s: %zu triangles"), made->name, made->mesh.triangle_count);

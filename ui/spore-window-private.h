@@ -92,6 +92,11 @@ void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 /* Enables the actions that can be done now. */
 void spore_window_update_actions(SporeWindow *self);
 
+/* spore-window-bodies.c: what is done to all that is selected. */
+void spore_window_add_body_actions(SporeWindow *self);
+/* bodies: of SporeObject *. */
+void spore_window_select(SporeWindow *self, const GPtrArray *bodies);
+
 /* spore-window-picking.c: what is made by clicks in the view. */
 void spore_window_add_pick_actions(SporeWindow *self);
 /* Begins to pick the ends of a new object of that type, or other ends for the object of that id. */

@@ -3,6 +3,7 @@
 
 #include "core/author/edits.h"
 #include "core/author/exercise_edits.h"
+#include "core/author/soft_edits.h"
 #include "core/scene/generated.h"
 #include "ui/spore-window-private.h"
 
@@ -222,9 +223,22 @@ static void update_exercise(SporeWindow *self, const SporeObject *selected, gboo
   set_enabled(self, "save-exercise-dialog", session);
 }
 
+static void update_bodies(SporeWindow *self, gboolean idle) {
+  g_autoptr(GPtrArray) selected = spore_editor_document_selected_bodies(self->document);
+  gboolean soft = FALSE;
+  for (guint i = 0; i < selected->len; i++)
+    soft = soft || spore_soft_may(spore_editor_document_get(self->document), selected->pdata[i], NULL);
+  set_enabled(self, "make-soft", idle && soft);
+  set_enabled(self, "hide", selected->len > 0);
+  set_enabled(self, "isolate", selected->len > 0);
+  set_enabled(self, "show-all", spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) > 0);
+}
+
 void spore_window_update_actions(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
+  gsize selected_count;
+  spore_editor_document_get_selected(self->document, &selected_count);
   gboolean named = selected && spore_object_name(selected),
            idle = !self->job && !spore_generator_is_working(self->generator);
   gboolean session = spore_player_get_session(self->player) != NULL;
@@ -236,14 +250,12 @@ void spore_window_update_actions(SporeWindow *self) {
               spore_editor_document_is_modified(self->document) ||
                   !spore_editor_document_get_save_file(self->document));
   set_enabled(self, "delete", named);
-  gboolean body = spore_editor_document_selected_body(self->document) != NULL;
-  set_enabled(self, "hide", body);
-  set_enabled(self, "isolate", body);
-  set_enabled(self, "show-all", spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) > 0);
-  set_enabled(self, "rename", named);
-  set_enabled(self, "rename-dialog", named);
+  update_bodies(self, idle);
+  set_enabled(self, "rename", named && selected_count == 1);
+  set_enabled(self, "rename-dialog", named && selected_count == 1);
   update_generator(self, bodies);
   set_enabled(self, "add-pin", bodies);
+  set_enabled(self, "select-organs", bodies);
   set_enabled(self, "add-link", bodies);
   set_enabled(self, "tie-link", spore_link_is(selected));
   update_exercise(self, selected, bodies, session);

@@ -207,6 +207,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_file_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
+  spore_window_add_body_actions(self);
   spore_window_add_pick_actions(self);
   spore_window_add_link_actions(self);
   spore_window_add_exercise_actions(self);

@@ -251,3 +251,12 @@ gboolean spore_edit_set_property(SporeDocument *document, const char *path, cons
   SporeObject *object = spore_edit_object_or_unit(document, path, error);
   return spore_edit_finish(document, object && change_property(document, object, property, text, error));
 }
+
+gboolean spore_edit_set_property_of_all(SporeDocument *document, char *const *paths, const char *property,
+                                        const char *text, GError **error) {
+  g_autofree char *label = g_strdup_printf(text ? _("Set %s") : _("Reset %s"), property);
+  gboolean done = TRUE;
+  spore_document_begin(document, label);
+  for (; done && *paths; paths++) done = spore_edit_set_property(document, *paths, property, text, error);
+  return spore_edit_finish(document, done);
+}

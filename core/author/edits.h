@@ -41,5 +41,8 @@ gboolean spore_edit_finish(SporeDocument *document, gboolean done);
  * missing unit of a body is made. */
 gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,
                                  GError **error);
+/* The same for each of the paths, which end with NULL, as one undo step. FALSE: nothing was changed. */
+gboolean spore_edit_set_property_of_all(SporeDocument *document, char *const *paths, const char *property,
+                                        const char *text, GError **error);
 
 #endif

@@ -7,14 +7,15 @@
 #include "core/io/organ.h"
 #include "core/author/edits.h"
 
-SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error) {
+GPtrArray *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error) {
   g_autoptr(GPtrArray) bodies = NULL;
   const SporeImportFile *first = g_ptr_array_index(import->files, 0);
   g_autofree char *base = g_path_get_basename(first->file);
   g_autofree char *label = import->files->len > 1 ? g_strdup_printf(_("Import %u meshes"), import->files->len)
                                                   : g_strdup_printf(_("Import %s"), base);
   spore_document_begin(document, label);
-  return spore_edit_finish(document, spore_import_insert(document, import, &bodies, error)) ? bodies->pdata[0] : NULL;
+  const gboolean done = spore_edit_finish(document, spore_import_insert(document, import, &bodies, error));
+  return done ? g_steal_pointer(&bodies) : NULL;
 }
 
 gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label, GBytes *content,

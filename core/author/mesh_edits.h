@@ -4,8 +4,9 @@
 
 #include "core/author/organ_import.h"
 
-/* Inserts bodies for an import. Returns the first body; NULL with an error: nothing was inserted. */
-SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error);
+/* Inserts bodies for an import. Returns the bodies, of SporeObject *, one or more (g_ptr_array_unref); NULL with an
+ * error: nothing was inserted. */
+GPtrArray *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error);
 
 /* Replaces the mesh of an asset by the content of an OFF file, in m and in SPORE's axes. label: name of the undo step,
  * translated. */

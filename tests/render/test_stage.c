@@ -220,9 +220,10 @@ static void test_selection_is_seen(void) {
   spore_stage_set_options(setting.stage, &options);
   Picture before = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
   SporeObject *ball = spore_document_find(setting.document, "body", "ball");
-  spore_stage_set_selection(setting.stage, spore_object_id(spore_object_child_of(ball, "collision")));
+  const guint32 part = spore_object_id(spore_object_child_of(ball, "collision"));
+  spore_stage_set_selection(setting.stage, &part, 1);
   Picture during = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
-  spore_stage_set_selection(setting.stage, 0);
+  spore_stage_set_selection(setting.stage, NULL, 0);
   Picture after = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
   g_assert_cmpfloat(picture_compare(&before, &during).mean, >, 0.3);
   g_assert_cmpfloat(picture_compare(&before, &after).mean, ==, 0);

@@ -62,7 +62,8 @@ static SporeObject *add_content(Fixture *fixture, const char *content) {
   SporeImportWork *work = spore_import_work_new(files, &options);
   spore_import_work_run(work, NULL, &error);
   g_assert_no_error(error);
-  SporeObject *body = spore_edit_import(fixture->document, work->import, &error);
+  g_autoptr(GPtrArray) bodies = spore_edit_import(fixture->document, work->import, &error);
+  SporeObject *body = bodies ? bodies->pdata[0] : NULL;
   g_assert_no_error(error);
   spore_import_work_free(work);
   g_remove(file);
@@ -496,6 +497,50 @@ static void test_selection(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_editor_document_get_selection(fixture->editor), ==, 0);
 }
 
+/* Several objects are selected in the order of their choice; bodies count once; what goes is selected no more, and what
+ * comes back is not. */
+static void test_several_selected(Fixture *fixture, gconstpointer data) {
+  SporeObject *first = add_organ(fixture), *second = add_organ(fixture);
+  const guint32 one = spore_object_id(first), visual = spore_object_id(spore_object_child_of(first, "visual")),
+                other = spore_object_id(second);
+  const guint32 all[] = {one, visual};
+  spore_editor_document_select_several(fixture->editor, all, 2);
+  spore_editor_document_toggle(fixture->editor, other);
+  g_assert_true(spore_editor_document_is_selected(fixture->editor, other));
+  g_assert_cmpuint(spore_editor_document_get_selection(fixture->editor), ==, one);
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(fixture->editor);
+  g_assert_cmpuint(bodies->len, ==, 2);
+  g_assert_true(bodies->pdata[0] == first && bodies->pdata[1] == second);
+  g_assert_true(spore_document_remove(fixture->document, first, NULL));
+  gsize count;
+  const guint32 *left = spore_editor_document_get_selected(fixture->editor, &count);
+  g_assert_cmpuint(count, ==, 1);
+  g_assert_cmpuint(left[0], ==, other);
+  spore_document_undo(fixture->document);
+  g_assert_false(spore_editor_document_is_selected(fixture->editor, one));
+  spore_editor_document_toggle(fixture->editor, other);
+  g_assert_null(spore_editor_document_selected(fixture->editor));
+}
+
+/* A property is set for all of several objects as one step, or for none of them. */
+static void test_set_for_all(Fixture *fixture, gconstpointer data) {
+  SporeObject *first = add_organ(fixture), *second = add_organ(fixture);
+  g_autofree char *a = spore_object_path(first), *b = spore_object_path(second);
+  g_autofree char *of_first = g_strconcat(a, "/visual", NULL), *of_second = g_strconcat(b, "/visual", NULL);
+  char *const paths[] = {of_first, of_second, NULL}, *const wrong[] = {of_first, "bodies/nobody/visual", NULL};
+  g_autoptr(GError) error = NULL;
+  g_autofree char *before = text_of(fixture);
+  g_assert_false(spore_edit_set_property_of_all(fixture->document, wrong, "wetness", "0.25", &error));
+  g_assert_nonnull(error);
+  g_clear_error(&error);
+  g_autofree char *after = text_of(fixture);
+  g_assert_cmpstr(after, ==, before);
+  g_assert_true(spore_edit_set_property_of_all(fixture->document, paths, "wetness", "0.25", &error));
+  g_assert_cmpfloat(spore_object_number(spore_object_child_of(first, "visual"), "wetness"), ==, 0.25);
+  g_assert_cmpfloat(spore_object_number(spore_object_child_of(second, "visual"), "wetness"), ==, 0.25);
+  assert_one_step(fixture, before);
+}
+
 /* Jobs. */
 
 static gboolean work_until_cancelled(gpointer data, const SporeProgress *progress, GError **error) {
@@ -697,6 +742,8 @@ int main(int argc, char **argv) {
       {"probe-and-pin", test_probe_and_pin},
       {"set-property", test_set_property},
       {"selection", test_selection},
+      {"several-selected", test_several_selected},
+      {"set-for-all", test_set_for_all},
       {"jobs", test_jobs},
       {"mapping-is-cancelled", test_mapping_is_cancelled},
       {"result-of-another-scene", test_result_of_another_scene},

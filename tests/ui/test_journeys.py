@@ -134,6 +134,148 @@ def import_of_several_meshes():
         assert not editor.enabled("undo")
 
 
+def three_organs(name):
+    """A folder of three organs side by side, of two tissues that their names say."""
+    place = folder(name)
+    for number, organ in enumerate(("liver", "spleen", "thing")):
+        (place / f"{organ}.off").write_bytes(shapes.off(*shapes.sphere(radius=30, centre=(80 * number, 0, 0))))
+    return place
+
+
+def import_three(editor):
+    """All three are selected after that, the first one first."""
+    editor.act("import-dialog-with", "as", [str(three_organs("three"))])
+    editor.find("label", "^3 bodies")
+    editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
+    ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
+    ui.wait(lambda: editor.row("liver") and editor.row("spleen") and editor.row("thing"), "three organs")
+
+
+def middle(editor, node):
+    x, y, width, height = editor.place(node)
+    return x + width // 2, y + height // 2
+
+
+def bodies_of(editor):
+    """The bodies of the scene as it is: name to text."""
+    shutil.rmtree(folder("saved") / "bodies", ignore_errors=True)
+    return dict(re.findall(r'<body name="(\w+)"(.*?)</body>', saved(editor, "bodies"), re.S))
+
+
+class Mouse:
+    """A hand that has a mouse alone, and counts its clicks."""
+
+    def __init__(self, editor):
+        self.editor, self.clicks = editor, 0
+
+    def click(self, role, name):
+        self.click_on(self.editor.find(role, name))
+
+    def click_on(self, node):
+        places = []  # a dialog is laid out before it stands
+        ui.wait(lambda: places.append(self.editor.place(node)) or (len(places) > 1 and places[-1] == places[-2]), "the thing to stand still")
+        click(self.editor, middle(self.editor, node))
+        self.clicks += 1
+
+
+@check
+def a_folder_of_organs_to_a_scene_that_plays():
+    """with the mouse alone, a folder of three organs becomes a soft scene with an instrument that plays: at most 12 clicks."""
+    three_organs("../organs")  # at home, where the chooser begins
+    with start() as editor:
+        mouse = Mouse(editor)
+        mouse.click("push button", "^Import$")
+        mouse.click("push button", "Add folder")
+        mouse.click("table cell", "^organs$")
+        mouse.click("push button", "^Add$")
+        editor.find("label", "^3 bodies")
+        mouse.click_on(inside(editor, "Import mesh", "push button", "^Import$"))
+        editor.find("label", "^3 bodies$")  # all that came are selected
+        mouse.click("push button", "^Make soft$")
+        ui.wait(lambda: all(editor.row(f"{organ}_pin") for organ in ("liver", "spleen", "thing")), "three soft organs that are held", 120)
+        mouse.click("toggle button", "^Menu$")
+        mouse.click("menu item|.*button", "^Add probe$")
+        ui.wait(lambda: editor.row("mouse"), "the probe")
+        mouse.click("push button", "^Play")
+        ui.wait(lambda: editor.enabled("pause") and editor.time_s(), "the scene to play", 60)
+        assert mouse.clicks <= 12, mouse.clicks
+        print("#", mouse.clicks, "clicks")
+        editor.act("pause")
+        text = saved(editor, "chosen")
+    assert 'material="liver"' in text and 'material="spleen"' in text and text.count("<pin ") == 3 and "<probe " in text
+
+
+@check
+def organs_made_soft_are_one_step():
+    """Make soft says which organ it works on, is ended by Cancel without a trace, and is one step of undo; an organ that cannot be is left out."""
+    (folder("partly") / "liver.off").write_bytes(shapes.off(*shapes.sphere(radius=30)))
+    (folder("partly") / "sheet.off").write_bytes(shapes.off([(x, y, 0.0) for x, y in ((0, 100), (80, 100), (0, 180))], [(0, 1, 2)]))
+    with start() as editor:
+        import_three(editor)
+        ui.wait(lambda: editor.enabled("make-soft"), "the import to end")
+        editor.act("make-soft")
+        editor.find("label", "^Making soft: liver: ")
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("make-soft"), "the work to end")
+        assert not editor.row("liver_pin") and not editor.row("liver_spheres")
+        editor.act("make-soft")
+        ui.wait(lambda: editor.row("thing_pin"), "soft organs", 120)
+        assert not editor.enabled("make-soft"), "all of them are soft"
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("thing_pin") and not editor.row("liver_tetrahedra"), "all of it to go")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("liver"), "the import to go")
+        assert not editor.enabled("undo")
+        editor.act("import-dialog-with", "as", [str(folder("partly"))])
+        editor.find("label", "^2 bodies")
+        editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
+        ui.wait(lambda: editor.row("sheet") and editor.enabled("make-soft"), "the import")
+        editor.act("make-soft")
+        ui.wait(lambda: "sheet: left out: " in (editor.message() or ""), "the sheet to be left out", 120)
+        assert editor.row("liver_pin") and not editor.row("sheet_pin")
+
+
+@check
+def several_bodies_at_once():
+    """Ctrl and Shift in the outliner, Ctrl+A and Shift in the view select several bodies; what is set is set for all of them, as one step."""
+    with start() as editor:
+        import_three(editor)
+        editor.find("label", "^3 bodies$")
+        editor.focus()
+        click(editor, middle(editor, editor.find("table cell", "^liver$")))
+        ui.wait(lambda: not editor.look("label", "^3 bodies$"), "one organ")
+        editor.mouse("keydown", "ctrl")
+        click(editor, middle(editor, editor.find("table cell", "^thing$")))
+        editor.mouse("keyup", "ctrl")
+        editor.find("label", "^2 bodies$")
+        editor.find("label", "^liver, thing$")
+        editor.choose(editor.find("combo box", "^Physical$"), "Effect")
+        editor.find("combo box", "^Effect$")
+        assert {name: "effect" in text for name, text in bodies_of(editor).items()} == {"liver": True, "spleen": False, "thing": True}
+        editor.act("undo")
+        editor.find("combo box", "^Physical$")
+        editor.keys("ctrl+a")
+        editor.find("label", "^3 bodies$")
+        editor.press(editor.find("push button", "^Hide$"))
+        editor.find("label", "3 bodies are hidden")
+        editor.act("show-all")
+        click(editor, middle(editor, editor.find("table cell", "^liver$")))
+        editor.mouse("keydown", "shift")
+        click(editor, middle(editor, editor.find("table cell", "^spleen$")))
+        editor.mouse("keyup", "shift")
+        editor.find("label", "^liver, spleen$")
+        editor.act("select", "s", "bodies/thing")
+        x, y = middle(editor, editor.find(".*", "^Viewport$"))
+        editor.mouse("keydown", "shift")
+        click(editor, (x, y))
+        editor.mouse("keyup", "shift")
+        editor.find("label", "^thing, spleen$")
+        editor.act("delete")
+        assert list(bodies_of(editor)) == ["liver"]
+        editor.act("undo")
+        assert list(bodies_of(editor)) == ["liver", "spleen", "thing"]
+
+
 @check
 def a_wrong_unit_is_doubted():
     """the import dialog says which unit would make an organ of a mesh, and takes back what it said when that is chosen."""

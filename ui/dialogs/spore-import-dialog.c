@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"
+#include "ui/dialogs/mesh-files.h"
 #include "ui/dialogs/spore-mesh-dialog.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
@@ -199,32 +200,37 @@ static void read_soon(SporeImportDialog *self) {
 
 static void choice_changed(GtkWidget *widget, SporeImportDialog *self) { read_soon(self); }
 
+/* Of a folder, all meshes in it. */
 static void add_file(SporeImportDialog *self, const char *file) {
-  g_ptr_array_insert(self->files, (int)self->files->len - 1, g_strdup(file)); /* before the NULL */
+  g_autoptr(GPtrArray) of_folder = spore_mesh_files_of_folder(file);
+  for (guint i = 0; of_folder && i < of_folder->len; i++) add_file(self, of_folder->pdata[i]);
+  if (!of_folder) g_ptr_array_insert(self->files, (int)self->files->len - 1, g_strdup(file)); /* before the NULL */
+}
+
+/* Begins where the last file lies, else at home. */
+static void choose(SporeImportDialog *self, const char *title, GtkFileChooserAction action) {
+  g_autoptr(GtkFileChooserNative) native =
+      gtk_file_chooser_native_new(title, GTK_WINDOW(self), action, _("_Add"), _("_Cancel"));
+  GtkFileChooser *chooser = GTK_FILE_CHOOSER(native);
+  if (action == GTK_FILE_CHOOSER_ACTION_OPEN) spore_mesh_files_filter(chooser);
+  const guint count = self->files->len - 1;
+  g_autofree char *beside = count ? g_path_get_dirname(self->files->pdata[count - 1]) : NULL;
+  gtk_file_chooser_set_current_folder(chooser, beside ? beside : g_get_home_dir());
+  gtk_file_chooser_set_select_multiple(chooser, TRUE);
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return;
+  GSList *chosen = gtk_file_chooser_get_filenames(chooser);
+  for (GSList *file = chosen; file; file = file->next) add_file(self, file->data);
+  g_slist_free_full(chosen, g_free);
+  if (self->files->len - 1 > count) read_soon(self);
+  else gtk_label_set_text(GTK_LABEL(self->state), _("There are no meshes in this folder"));
 }
 
 static void add_files(GtkButton *button, SporeImportDialog *self) {
-  static const char *const patterns[] = {"*.stl", "*.obj", "*.ply",    "*.off",  "*.gltf", "*.glb", "*.vtk",
-                                         "*.vtp", "*.nii", "*.nii.gz", "*.nrrd", "*.nhdr", "*.hdr", NULL};
-  g_autoptr(GtkFileChooserNative) native = gtk_file_chooser_native_new(
-      _("Choose meshes"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Add"), _("_Cancel"));
-  GtkFileFilter *filter = gtk_file_filter_new(), *all = gtk_file_filter_new();
-  gtk_file_filter_set_name(filter, _("Meshes"));
-  for (int i = 0; patterns[i]; i++) {
-    g_autofree char *upper = g_ascii_strup(patterns[i], -1);
-    gtk_file_filter_add_pattern(filter, patterns[i]);
-    gtk_file_filter_add_pattern(filter, upper);
-  }
-  gtk_file_filter_set_name(all, _("All files"));
-  gtk_file_filter_add_pattern(all, "*");
-  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), filter);
-  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), all);
-  gtk_file_chooser_set_select_multiple(GTK_FILE_CHOOSER(native), TRUE);
-  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return;
-  GSList *chosen = gtk_file_chooser_get_filenames(GTK_FILE_CHOOSER(native));
-  for (GSList *file = chosen; file; file = file->next) add_file(self, file->data);
-  g_slist_free_full(chosen, g_free);
-  read_soon(self);
+  choose(self, _("Choose meshes"), GTK_FILE_CHOOSER_ACTION_OPEN);
+}
+
+static void add_folder(GtkButton *button, SporeImportDialog *self) {
+  choose(self, _("Choose a folder of meshes"), GTK_FILE_CHOOSER_ACTION_SELECT_FOLDER);
 }
 
 static void clear_files(GtkButton *button, SporeImportDialog *self) {
@@ -262,6 +268,7 @@ static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, together);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, rows);
   gtk_widget_class_bind_template_callback(widget, add_files);
+  gtk_widget_class_bind_template_callback(widget, add_folder);
   gtk_widget_class_bind_template_callback(widget, clear_files);
   gtk_widget_class_bind_template_callback(widget, choice_changed);
 }

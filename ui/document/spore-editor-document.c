@@ -2,6 +2,7 @@
 #include "ui/document/spore-editor-document.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "core/io/scene_xml.h"
 #include "core/scene/run_hash.h"
@@ -10,7 +11,7 @@ struct _SporeEditorDocument {
   GObject parent;
   SporeDocument *document;
   guint listener;
-  guint32 selection;
+  GArray *selection; /* of guint32: ids */
   gboolean recovered;
   SporeAccuracyStudy *study;
   struct {
@@ -33,6 +34,17 @@ static gboolean is_within(SporeObject *object, guint32 ancestor) {
   return FALSE;
 }
 
+/* What lies within an object that goes is selected no more. */
+static void forget_within(SporeEditorDocument *self, guint32 ancestor) {
+  g_autoptr(GArray) left = g_array_new(FALSE, FALSE, sizeof(guint32));
+  for (guint i = 0; i < self->selection->len; i++) {
+    const guint32 id = g_array_index(self->selection, guint32, i);
+    SporeObject *object = spore_document_by_id(self->document, id);
+    if (object && !is_within(object, ancestor)) g_array_append_val(left, id);
+  }
+  spore_editor_document_select_several(self, (const guint32 *)(gpointer)left->data, left->len);
+}
+
 static void document_changed(SporeDocument *document, SporeChangeKind kind, SporeObject *object, guint property,
                              gpointer data) {
   SporeEditorDocument *self = data;
@@ -41,9 +53,7 @@ static void document_changed(SporeDocument *document, SporeChangeKind kind, Spor
     return;
   }
   guint32 id = spore_object_id(object);
-  SporeObject *selected = spore_document_by_id(document, self->selection);
-  if (kind == SPORE_DOCUMENT_REMOVED && self->selection && (!selected || is_within(selected, id)))
-    spore_editor_document_select(self, 0);
+  if (kind == SPORE_DOCUMENT_REMOVED) forget_within(self, id);
   g_signal_emit(self, signals[CHANGED], 0, (int)kind, id, property);
 }
 
@@ -52,6 +62,7 @@ static void spore_editor_document_finalize(GObject *object) {
   spore_document_unlisten(self->document, self->listener);
   spore_document_free(self->document);
   spore_accuracy_study_free(self->study);
+  g_array_unref(self->selection);
   g_free(self->original);
   G_OBJECT_CLASS(spore_editor_document_parent_class)->finalize(object);
 }
@@ -68,7 +79,10 @@ static void spore_editor_document_class_init(SporeEditorDocumentClass *class) {
       g_signal_new("selection-changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
-static void spore_editor_document_init(SporeEditorDocument *self) { self->accuracy.point = -1; }
+static void spore_editor_document_init(SporeEditorDocument *self) {
+  self->accuracy.point = -1;
+  self->selection = g_array_new(FALSE, FALSE, sizeof(guint32));
+}
 
 SporeEditorDocument *spore_editor_document_new(SporeDocument *document) {
   SporeEditorDocument *self = g_object_new(SPORE_TYPE_EDITOR_DOCUMENT, NULL);
@@ -79,22 +93,67 @@ SporeEditorDocument *spore_editor_document_new(SporeDocument *document) {
 
 SporeDocument *spore_editor_document_get(SporeEditorDocument *self) { return self->document; }
 
-guint32 spore_editor_document_get_selection(SporeEditorDocument *self) { return self->selection; }
+/* Selection. */
 
-void spore_editor_document_select(SporeEditorDocument *self, guint32 id) {
-  if (id == self->selection) return;
-  self->selection = id;
+const guint32 *spore_editor_document_get_selected(SporeEditorDocument *self, gsize *count) {
+  *count = self->selection->len;
+  return (const guint32 *)(gpointer)self->selection->data;
+}
+
+guint32 spore_editor_document_get_selection(SporeEditorDocument *self) {
+  return self->selection->len ? g_array_index(self->selection, guint32, 0) : 0;
+}
+
+void spore_editor_document_select_several(SporeEditorDocument *self, const guint32 *ids, gsize count) {
+  const gboolean same =
+      count == self->selection->len && (count == 0 || memcmp(ids, self->selection->data, count * sizeof *ids) == 0);
+  if (same) return;
+  g_array_set_size(self->selection, 0);
+  if (count) g_array_append_vals(self->selection, ids, (guint)count);
   g_signal_emit(self, signals[SELECTION_CHANGED], 0);
 }
 
+void spore_editor_document_select(SporeEditorDocument *self, guint32 id) {
+  spore_editor_document_select_several(self, &id, id != 0);
+}
+
+gboolean spore_editor_document_is_selected(SporeEditorDocument *self, guint32 id) {
+  for (guint i = 0; i < self->selection->len; i++)
+    if (g_array_index(self->selection, guint32, i) == id) return TRUE;
+  return FALSE;
+}
+
+void spore_editor_document_toggle(SporeEditorDocument *self, guint32 id) {
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32));
+  for (guint i = 0; i < self->selection->len; i++) {
+    const guint32 one = g_array_index(self->selection, guint32, i);
+    if (one != id) g_array_append_val(ids, one);
+  }
+  if (ids->len == self->selection->len) g_array_append_val(ids, id);
+  spore_editor_document_select_several(self, (const guint32 *)(gpointer)ids->data, ids->len);
+}
+
 SporeObject *spore_editor_document_selected(SporeEditorDocument *self) {
-  return self->selection ? spore_document_by_id(self->document, self->selection) : NULL;
+  const guint32 id = spore_editor_document_get_selection(self);
+  return id ? spore_document_by_id(self->document, id) : NULL;
+}
+
+static SporeObject *body_of(SporeObject *object) {
+  while (object && !g_str_equal(spore_object_type(object)->element, "body")) object = spore_object_parent(object);
+  return object;
 }
 
 SporeObject *spore_editor_document_selected_body(SporeEditorDocument *self) {
-  SporeObject *object = spore_editor_document_selected(self);
-  while (object && !g_str_equal(spore_object_type(object)->element, "body")) object = spore_object_parent(object);
-  return object;
+  return body_of(spore_editor_document_selected(self));
+}
+
+GPtrArray *spore_editor_document_selected_bodies(SporeEditorDocument *self) {
+  GPtrArray *bodies = g_ptr_array_new();
+  for (guint i = 0; i < self->selection->len; i++) {
+    SporeObject *body = body_of(spore_document_by_id(self->document, g_array_index(self->selection, guint32, i)));
+    if (body && !g_ptr_array_find(bodies, body, NULL)) g_ptr_array_add(bodies, body);
+  }
+  return bodies;
 }
 
 /* The accuracy study. */

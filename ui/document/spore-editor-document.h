@@ -22,12 +22,22 @@ G_DECLARE_FINAL_TYPE(SporeEditorDocument, spore_editor_document, SPORE, EDITOR_D
 SporeEditorDocument *spore_editor_document_new(SporeDocument *document);
 SporeDocument *spore_editor_document_get(SporeEditorDocument *self);
 
-/* Selected object's id, 0: none. Falls back to 0 when the object goes. */
+/* Id of the selected object, 0: none; of several, the first one. An object that goes is selected no more. */
 guint32 spore_editor_document_get_selection(SporeEditorDocument *self);
-void spore_editor_document_select(SporeEditorDocument *self, guint32 id);
-SporeObject *spore_editor_document_selected(SporeEditorDocument *self); /* NULL: none */
+void spore_editor_document_select(SporeEditorDocument *self, guint32 id); /* that object alone; 0: none */
+SporeObject *spore_editor_document_selected(SporeEditorDocument *self);   /* NULL: none */
 /* The body that is selected, or to which the selection belongs; NULL: none. */
 SporeObject *spore_editor_document_selected_body(SporeEditorDocument *self);
+
+/* Several selected objects: ids that differ, not 0; the first is the one that what works on one object takes. */
+const guint32 *spore_editor_document_get_selected(SporeEditorDocument *self, gsize *count); /* until the next change */
+void spore_editor_document_select_several(SporeEditorDocument *self, const guint32 *ids, gsize count);
+/* Adds an object to the selection, or takes it out. */
+void spore_editor_document_toggle(SporeEditorDocument *self, guint32 id);
+gboolean spore_editor_document_is_selected(SporeEditorDocument *self, guint32 id);
+/* The bodies that are selected, or to which what is selected belongs: of SporeObject *, each once. g_ptr_array_unref.
+ */
+GPtrArray *spore_editor_document_selected_bodies(SporeEditorDocument *self);
 
 /* The last accuracy study of the scene; NULL: none since the scene was opened. */
 const SporeAccuracyStudy *spore_editor_document_get_study(SporeEditorDocument *self);

@@ -14,6 +14,7 @@
 #include "ui/jobs/spore-sphere-measures.h"
 #include "ui/jobs/spore-swing-measures.h"
 #include "ui/panels/asset-facts.h"
+#include "ui/panels/batch.h"
 #include "ui/panels/region-list.h"
 #include "ui/panels/spore-generator-box.h"
 #include "ui/panels/spore-model-choice.h"
@@ -271,6 +272,7 @@ static void add_mechanical(SporeInspector *self, SporeObject *body, const char *
   SporeObject *asset = spore_edit_body_tetrahedra(document, body);
   GtkBox *box = spore_section_list_add(sections_of(self), _("Mechanical unit"), path, asset);
   if (!box) return;
+  gtk_container_add(GTK_CONTAINER(box), spore_soft_button_new());
   g_set_weak_pointer(&self->model, spore_model_choice_new(spore_document_schema(document)));
   gtk_container_add(GTK_CONTAINER(box), self->model);
   add_generators(self, box, body, "mechanical");
@@ -342,14 +344,25 @@ static void show_title(SporeInspector *self, const char *title, const char *subt
   gtk_widget_set_visible(self->subtitle, *subtitle != '\0');
 }
 
+/* Several bodies. */
+static void add_several(SporeInspector *self, const GPtrArray *bodies) {
+  g_autofree char *title = g_strdup_printf(ngettext("%u body", "%u bodies", bodies->len), bodies->len);
+  g_autofree char *names = spore_batch_names(bodies);
+  show_title(self, title, names);
+  spore_add_batch(sections_of(self), self->document, bodies);
+}
+
 static gboolean rebuild(gpointer data) {
   SporeInspector *self = data;
   self->rebuild = 0;
   g_clear_handle_id(&self->refresh, g_source_remove);
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
   SporeObject *body = spore_editor_document_selected_body(self->document);
   spore_section_list_begin(sections_of(self));
-  if (body) {
+  if (bodies->len > 1) {
+    add_several(self, bodies);
+  } else if (body) {
     show_title(self, spore_object_name(body), "");
     add_body(self, body);
   } else if (selected && spore_object_name(selected)) {

@@ -89,10 +89,11 @@ static gboolean select_if(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *i
   SporeOutliner *self = data;
   guint id;
   gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
-  if (id == 0 || id != spore_editor_document_get_selection(self->document)) return FALSE;
+  if (!spore_editor_document_is_selected(self->document, id)) return FALSE;
   gtk_tree_selection_select_iter(self->selection, iter);
-  gtk_tree_view_scroll_to_cell(GTK_TREE_VIEW(self->tree), path, NULL, FALSE, 0, 0);
-  return TRUE;
+  if (id == spore_editor_document_get_selection(self->document))
+    gtk_tree_view_scroll_to_cell(GTK_TREE_VIEW(self->tree), path, NULL, FALSE, 0, 0);
+  return FALSE;
 }
 
 static void show_selection(SporeOutliner *self) {
@@ -102,13 +103,24 @@ static void show_selection(SporeOutliner *self) {
   self->filling = FALSE;
 }
 
-static void row_selected(GtkTreeSelection *selection, SporeOutliner *self) {
-  GtkTreeModel *model;
-  GtkTreeIter iter;
+static void collect(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer ids) {
   guint id = 0;
+  gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
+  if (id) g_array_append_val((GArray *)ids, id);
+}
+
+/* The first selected object stays the first where it is still selected. */
+static void row_selected(GtkTreeSelection *selection, SporeOutliner *self) {
   if (self->filling || !self->document) return;
-  if (gtk_tree_selection_get_selected(selection, &model, &iter)) gtk_tree_model_get(model, &iter, COLUMN_ID, &id, -1);
-  spore_editor_document_select(self->document, id);
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32));
+  gtk_tree_selection_selected_foreach(selection, collect, ids);
+  const guint32 first = spore_editor_document_get_selection(self->document);
+  for (guint i = 1; i < ids->len; i++) {
+    if (g_array_index(ids, guint32, i) != first) continue;
+    g_array_remove_index(ids, i);
+    g_array_prepend_val(ids, first);
+  }
+  spore_editor_document_select_several(self->document, (const guint32 *)(gpointer)ids->data, ids->len);
 }
 
 static gboolean may_select(GtkTreeSelection *selection, GtkTreeModel *model, GtkTreePath *path, gboolean selected,
@@ -185,17 +197,17 @@ static void name_edited(GtkCellRendererText *cell, const char *path, const char 
 }
 
 void spore_outliner_rename(SporeOutliner *self) {
-  GtkTreeIter iter;
-  if (!gtk_tree_selection_get_selected(self->selection, NULL, &iter)) return;
-  GtkTreePath *path = gtk_tree_model_get_path(GTK_TREE_MODEL(self->filtered), &iter);
+  GList *rows = gtk_tree_selection_get_selected_rows(self->selection, NULL);
   gtk_widget_grab_focus(self->tree);
-  gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), path, self->column, self->name, TRUE);
-  gtk_tree_path_free(path);
+  if (rows && !rows->next)
+    gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), rows->data, self->column, self->name, TRUE);
+  g_list_free_full(rows, (GDestroyNotify)gtk_tree_path_free);
 }
 
 static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *self) {
   if (event->keyval == GDK_KEY_F2) spore_outliner_rename(self);
   else if (event->keyval == GDK_KEY_Delete) spore_activate(tree, "delete", NULL);
+  else if (event->keyval == GDK_KEY_a && event->state & GDK_CONTROL_MASK) spore_activate(tree, "select-organs", NULL);
   else return GDK_EVENT_PROPAGATE;
   return GDK_EVENT_STOP;
 }

@@ -18,7 +18,7 @@ struct _SporePropertyRow {
   GtkWidget *label, *holder, *unit, *tag, *reset, *measured, *complaint;
   GtkWidget *editor;
   SporeEditorDocument *document;
-  char *path;
+  char **paths; /* of the objects that it sets, ended by NULL; the first one is shown */
   const SporeObjectType *type;
   guint property;
   char *shown; /* last text that was given to the editor */
@@ -35,20 +35,40 @@ static gboolean is_colour(const SporeParameter *parameter) {
   return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
 }
 
-static SporeObject *object_of(SporePropertyRow *self) {
-  return spore_document_by_path(spore_editor_document_get(self->document), self->path);
+static SporeObject *object_at(SporePropertyRow *self, const char *path) {
+  return spore_document_by_path(spore_editor_document_get(self->document), path);
 }
 
 /* The value in force as text; for an object that is not there yet the default. g_free. */
-static char *current_text(SporePropertyRow *self) {
+static char *text_at(SporePropertyRow *self, const char *path) {
   const SporeParameter *parameter = parameter_of(self);
-  SporeObject *object = object_of(self);
+  SporeObject *object = object_at(self, path);
   if (object) return spore_value_text(parameter, spore_object_value(object, self->property));
   SporeValue value = {0};
   if (!spore_parameter_initial(parameter, &value)) return g_strdup("");
   char *text = spore_value_text(parameter, &value);
   spore_value_clear(&value);
   return text;
+}
+
+/* The value that all objects have; "" where they differ. g_free. */
+static char *current_text(SporePropertyRow *self) {
+  g_autofree char *text = text_at(self, self->paths[0]);
+  for (char **path = self->paths + 1; *path; path++) {
+    g_autofree char *other = text_at(self, *path);
+    if (!g_str_equal(other, text)) return g_strdup("");
+  }
+  return g_steal_pointer(&text);
+}
+
+/* Whether the author set it anywhere. */
+static gboolean is_set(SporePropertyRow *self) {
+  if (parameter_of(self)->type == SPORE_NAME) return FALSE;
+  for (char **path = self->paths; *path; path++) {
+    SporeObject *object = object_at(self, *path);
+    if (object && spore_object_is_set(object, self->property)) return TRUE;
+  }
+  return FALSE;
 }
 
 /* Changing. */
@@ -74,7 +94,7 @@ static void change(SporePropertyRow *self, const char *text) {
   g_autoptr(GError) error = NULL;
   const char *name = parameter_of(self)->name;
   SporeDocument *document = spore_editor_document_get(self->document);
-  spore_edit_set_property(document, self->path, name, text, &error);
+  spore_edit_set_property_of_all(document, self->paths, name, text, &error);
   if (held->editor) complain(held, error ? error->message : NULL);
 }
 
@@ -91,6 +111,7 @@ static void entry_commit(SporePropertyRow *self) {
   const char *typed = gtk_entry_get_text(GTK_ENTRY(self->editor));
   g_autofree char *text =
       is_number(self) ? spore_number_text_read(typed, spore_number_mark()) : g_strstrip(g_strdup(typed));
+  if (*text == '\0' && g_strcmp0(self->shown, "") == 0) return; /* of objects that differ: nothing was typed */
   change(self, *text == '\0' && is_number(self) ? NULL : text);
 }
 
@@ -213,11 +234,10 @@ static void show_value(SporePropertyRow *self, const char *text) {
   } else if (GTK_IS_SWITCH(self->editor)) {
     gtk_switch_set_active(GTK_SWITCH(self->editor), g_str_equal(text, "true"));
   } else if (GTK_IS_COLOR_BUTTON(self->editor)) {
-    GdkRGBA colour = {0, 0, 0, 1};
-    char *end;
-    colour.red = g_ascii_strtod(text, &end);
-    colour.green = g_ascii_strtod(end, &end);
-    colour.blue = g_ascii_strtod(end, &end);
+    GdkRGBA colour = {0.5, 0.5, 0.5, 1}; /* of objects that differ */
+    char *end = (char *)text;
+    double *const channels[] = {&colour.red, &colour.green, &colour.blue};
+    for (int i = 0; *text && i < 3; i++) *channels[i] = g_ascii_strtod(end, &end);
     gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(self->editor), &colour);
   } else {
     g_autofree char *shown = is_number(self) ? spore_number_text_show(text, spore_number_mark()) : g_strdup(text);
@@ -229,7 +249,7 @@ static void show_value(SporePropertyRow *self, const char *text) {
 static void show_measured(SporePropertyRow *self) {
   gboolean stale;
   g_autofree char *hint = NULL;
-  g_autofree char *note = spore_measured_note(self->document, self->path, parameter_of(self)->name, &hint, &stale);
+  g_autofree char *note = spore_measured_note(self->document, self->paths[0], parameter_of(self)->name, &hint, &stale);
   g_autofree char *text = note && stale ? g_strdup_printf(_("stale: %s"), note) : g_strdup(note);
   GtkStyleContext *style = gtk_widget_get_style_context(self->measured);
   if (stale) gtk_style_context_add_class(style, "stale");
@@ -241,9 +261,8 @@ static void show_measured(SporePropertyRow *self) {
 
 void spore_property_row_refresh(SporePropertyRow *self) {
   g_autofree char *text = current_text(self);
-  SporeObject *object = object_of(self);
   const SporeParameter *parameter = parameter_of(self);
-  gboolean set = object && spore_object_is_set(object, self->property) && parameter->type != SPORE_NAME;
+  gboolean set = is_set(self);
   /* What the user is typing stays, unless the value itself has changed. References show other names too. */
   if (g_strcmp0(text, self->shown) != 0 || parameter->type == SPORE_REFERENCE) {
     self->refreshing = TRUE;
@@ -298,7 +317,7 @@ static void spore_property_row_dispose(GObject *object) {
   if (self->editor) g_signal_handlers_disconnect_by_data(self->editor, self);
   self->editor = NULL;
   g_clear_object(&self->document);
-  g_clear_pointer(&self->path, g_free);
+  g_clear_pointer(&self->paths, g_strfreev);
   g_clear_pointer(&self->shown, g_free);
   G_OBJECT_CLASS(spore_property_row_parent_class)->dispose(object);
 }
@@ -321,9 +340,15 @@ static void spore_property_row_init(SporePropertyRow *self) { gtk_widget_init_te
 
 GtkWidget *spore_property_row_new(SporeEditorDocument *document, const char *path, const SporeObjectType *type,
                                   guint property) {
+  const char *const paths[] = {path, NULL};
+  return spore_property_row_new_of_several(document, paths, type, property);
+}
+
+GtkWidget *spore_property_row_new_of_several(SporeEditorDocument *document, const char *const *paths,
+                                             const SporeObjectType *type, guint property) {
   SporePropertyRow *self = g_object_new(SPORE_TYPE_PROPERTY_ROW, NULL);
   self->document = g_object_ref(document);
-  self->path = g_strdup(path);
+  self->paths = g_strdupv((char **)paths);
   self->type = type;
   self->property = property;
   self->editor = new_editor(self);

@@ -11,6 +11,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->bodies = g_ptr_array_new();
   stage->fit = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
+  stage->selection = g_hash_table_new(NULL, NULL);
   return stage;
 }
 
@@ -28,6 +29,7 @@ void spore_stage_free(SporeStage *stage) {
   clear(stage);
   g_ptr_array_free(stage->bodies, TRUE);
   g_hash_table_destroy(stage->fit);
+  g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
   g_free(stage);
 }
@@ -115,13 +117,16 @@ void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden) {
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_show(stage, stage->bodies->pdata[i]);
 }
 
-void spore_stage_set_selection(SporeStage *stage, guint32 object_id) {
-  const SporeObject *object = object_id ? spore_document_by_id(stage->document, object_id) : NULL;
-  while (object && strcmp(spore_object_type(object)->element, "body") != 0) object = spore_object_parent(object);
-  stage->selection = object ? spore_object_id(object) : 0;
+void spore_stage_set_selection(SporeStage *stage, const guint32 *object_ids, gsize count) {
+  g_hash_table_remove_all(stage->selection);
+  for (gsize i = 0; i < count; i++) {
+    const SporeObject *object = spore_document_by_id(stage->document, object_ids[i]);
+    while (object && strcmp(spore_object_type(object)->element, "body") != 0) object = spore_object_parent(object);
+    if (object) g_hash_table_add(stage->selection, GUINT_TO_POINTER(spore_object_id(object)));
+  }
   for (guint i = 0; i < stage->bodies->len; i++) {
     SporeStageBody *body = stage->bodies->pdata[i];
-    gboolean selected = body->object == stage->selection;
+    gboolean selected = g_hash_table_contains(stage->selection, GUINT_TO_POINTER(body->object));
     if (body->style.selected == selected) continue;
     body->style.selected = selected;
     if (body->surface_handle) spore_renderer_style_surface(stage->renderer, body->surface_handle, &body->style);

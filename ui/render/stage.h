@@ -60,7 +60,7 @@ SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
 /* Hides bodies, by their objects' ids as pointers. Borrowed until the next call; call again when the set has changed.
  * NULL: none. What is hidden is not picked. */
 void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden);
-void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
+void spore_stage_set_selection(SporeStage *stage, const guint32 *object_ids, gsize count);
 /* The scene's camera of that name (tools > camera); NULL: the first camera, else one that sees everything at this
  * aspect. Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides. FALSE with a GError when
  * no camera has that name. */

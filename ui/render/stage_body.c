@@ -279,7 +279,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   SporeBodyFields fields;
   spore_object_fields(object, &fields);
   body->style.material = fields.role == SPORE_ACTIVE ? SPORE_MATERIAL_METAL : SPORE_MATERIAL_TISSUE;
-  body->style.selected = stage->selection == body->object;
+  body->style.selected = g_hash_table_contains(stage->selection, GUINT_TO_POINTER(body->object));
   init_configuration(body, object, simulation, level);
   build_smoke(stage, body, simulation);
   build_surface(stage, body, object, simulation);

@@ -65,10 +65,10 @@ struct SporeStage {
   SporeDocument *document;
   const SporeSimulation *simulation; /* that the bodies were built for; NULL: none */
   SporeStageOptions options;
-  guint32 selection;  /* id of a body */
-  GHashTable *hidden; /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
-  GPtrArray *bodies;  /* SporeStageBody * */
-  GHashTable *fit;    /* const SporeSphereSet * -> SporeStageFit * */
+  GHashTable *selection; /* ids of bodies, as pointers */
+  GHashTable *hidden;    /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
+  GPtrArray *bodies;     /* SporeStageBody * */
+  GHashTable *fit;       /* const SporeSphereSet * -> SporeStageFit * */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;

@@ -216,16 +216,18 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   guint32 link = self->tool == SPORE_VIEWPORT_TOOL_SELECT ? spore_viewport_link_at(self, event->x, event->y) : 0;
   guint32 body = link ? link : pick(self, event->x, event->y, &point);
   if (body && spore_viewport_edit_place(self, body, point)) return;
-  if (body) spore_editor_document_select(self->document, body);
+  if (body && event->state & GDK_SHIFT_MASK) spore_editor_document_toggle(self->document, body);
+  else if (body) spore_editor_document_select(self->document, body);
   self->beside = !body;
   self->pressed_x = event->x, self->pressed_y = event->y;
 }
 
-/* The menu is of what lies under the cursor. */
+/* The menu is of what lies under the cursor, or of all that is selected where that is a part of it. */
 static void press_right(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
   guint32 body = pick(self, event->x, event->y, &point);
-  if (body) spore_editor_document_select(self->document, body);
+  if (body && !spore_editor_document_is_selected(self->document, body))
+    spore_editor_document_select(self->document, body);
   spore_viewport_popup(self, (const GdkEvent *)event, body != 0);
 }
 
@@ -319,7 +321,12 @@ static gboolean has_whole_screen(GtkWidget *area) {
 }
 
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
-  if (event->state & gtk_accelerator_get_default_mod_mask()) return GDK_EVENT_PROPAGATE;
+  const guint modifiers = event->state & gtk_accelerator_get_default_mod_mask();
+  if (modifiers == GDK_CONTROL_MASK && event->keyval == GDK_KEY_a) {
+    spore_activate(area, "select-organs", NULL);
+    return GDK_EVENT_STOP;
+  }
+  if (modifiers) return GDK_EVENT_PROPAGATE;
   if (spore_viewport_edit_key(self, event->keyval)) return GDK_EVENT_STOP;
   switch (event->keyval) {
   case GDK_KEY_Escape:

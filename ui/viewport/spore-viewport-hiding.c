@@ -19,18 +19,19 @@ guint spore_viewport_hidden_count(SporeViewport *self) {
   return count;
 }
 
-void spore_viewport_hide(SporeViewport *self, guint32 body) {
-  g_hash_table_add(self->hidden, GUINT_TO_POINTER(body));
+void spore_viewport_hide(SporeViewport *self, const GPtrArray *bodies) {
+  for (guint i = 0; i < bodies->len; i++)
+    g_hash_table_add(self->hidden, GUINT_TO_POINTER(spore_object_id(bodies->pdata[i])));
   hidden_changed(self);
 }
 
-void spore_viewport_isolate(SporeViewport *self, guint32 body) {
-  const SporeObject *bodies = spore_document_section(spore_editor_document_get(self->document), "bodies");
+void spore_viewport_isolate(SporeViewport *self, const GPtrArray *bodies) {
+  const SporeObject *all = spore_document_section(spore_editor_document_get(self->document), "bodies");
   g_hash_table_remove_all(self->hidden);
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    guint32 id = spore_object_id(spore_object_child(bodies, i));
-    if (id != body) g_hash_table_add(self->hidden, GUINT_TO_POINTER(id));
-  }
+  for (guint i = 0; i < spore_object_child_count(all); i++)
+    g_hash_table_add(self->hidden, GUINT_TO_POINTER(spore_object_id(spore_object_child(all, i))));
+  for (guint i = 0; i < bodies->len; i++)
+    g_hash_table_remove(self->hidden, GUINT_TO_POINTER(spore_object_id(bodies->pdata[i])));
   hidden_changed(self);
 }
 
@@ -43,6 +44,7 @@ void spore_viewport_show_all(SporeViewport *self) {
 
 static GMenu *menu_of_body(SporeViewport *self) {
   GMenu *menu = g_menu_new();
+  g_menu_append(menu, _("Make soft"), "win.make-soft");
   g_menu_append(menu, _("Hold"), "win.add-pin");
   g_menu_append_submenu(menu, _("Add link"), self->link_kinds);
   g_menu_append(menu, _("Hide"), "win.hide");

@@ -55,6 +55,12 @@ static void update_stage(SporeViewport *self) {
   spore_viewport_redraw(self);
 }
 
+static void show_selection(SporeViewport *self) {
+  gsize count;
+  const guint32 *ids = spore_editor_document_get_selected(self->document, &count);
+  spore_stage_set_selection(self->stage, ids, count);
+}
+
 static gboolean rebuild(gpointer data) {
   SporeViewport *self = data;
   self->rebuild = 0;
@@ -65,7 +71,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_set_hidden(self->stage, self->hidden);
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
-  spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
+  show_selection(self);
   spore_viewport_links_refresh(self);
   spore_viewport_look_afresh(self);
   spore_viewport_edit_refresh(self);
@@ -178,7 +184,7 @@ static void player_replaced(SporeViewport *self) {
 }
 
 static void selection_changed(SporeViewport *self) {
-  if (self->stage) spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
+  if (self->stage) show_selection(self);
   self->regions = 0;
   spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);

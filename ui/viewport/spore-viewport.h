@@ -62,9 +62,9 @@ void spore_viewport_set_figures(SporeViewport *self, gboolean figures);
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
 /* Shows marks on a body; takes the segments. */
 void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks);
-/* Hides a body, or all others; shows all. body: object id. Of the view alone; another document shows all. */
-void spore_viewport_hide(SporeViewport *self, guint32 body);
-void spore_viewport_isolate(SporeViewport *self, guint32 body);
+/* Hides bodies, or all others; shows all. bodies: of SporeObject *. Of the view alone; another document shows all. */
+void spore_viewport_hide(SporeViewport *self, const GPtrArray *bodies);
+void spore_viewport_isolate(SporeViewport *self, const GPtrArray *bodies);
 void spore_viewport_show_all(SporeViewport *self);
 guint spore_viewport_hidden_count(SporeViewport *self);
 void spore_viewport_frame(SporeViewport *self);

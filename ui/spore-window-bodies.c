@@ -1,0 +1,143 @@
+/* What is done to all that is selected: made soft, held, hidden, shown alone, deleted. */
+#include <glib/gi18n.h>
+
+#include "core/author/edits.h"
+#include "core/author/soft_edits.h"
+#include "ui/spore-window-private.h"
+
+static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
+
+/* Selecting. */
+
+void spore_window_select(SporeWindow *self, const GPtrArray *bodies) {
+  g_autofree guint32 *ids = g_new(guint32, bodies->len);
+  for (guint i = 0; i < bodies->len; i++) ids[i] = spore_object_id(bodies->pdata[i]);
+  spore_editor_document_select_several(self->document, ids, bodies->len);
+}
+
+/* All bodies but those that a hand leads. */
+static void act_select_organs(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const SporeObject *bodies = spore_document_section(document_of(self), "bodies");
+  g_autoptr(GPtrArray) organs = g_ptr_array_new();
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if ((SporeRole)spore_object_number(body, "role") != SPORE_ACTIVE) g_ptr_array_add(organs, body);
+  }
+  spore_window_select(self, organs);
+}
+
+/* Making soft. */
+
+/* Says what became of each organ; those that were left out are a matter for the message bar. */
+static void tell_soft(SporeWindow *self, const SporeSoftWork *work) {
+  g_autoptr(GString) left_out = g_string_new(NULL);
+  for (guint i = 0; i < work->organs->len; i++) {
+    const SporeSoftOrgan *organ = work->organs->pdata[i];
+    g_autofree char *text = spore_soft_organ_text(organ);
+    if (!organ->refused) spore_window_log(self, "%s", text);
+    else g_string_append_printf(left_out, "%s%s", left_out->len ? "\n" : "", text);
+  }
+  if (left_out->len) spore_window_complain(self, left_out->str);
+}
+
+static void made_soft(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  g_autoptr(GError) failure = NULL;
+  if (spore_window_failed(self, error) || !self->document) return;
+  if (spore_soft_work_apply(data, document_of(self), &failure)) tell_soft(self, data);
+  else spore_window_failed(self, failure);
+}
+
+/* Selected bodies that cannot be made soft stay as they are. */
+static void act_make_soft(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  g_autoptr(GError) error = NULL;
+  for (guint i = bodies->len; i > 0; i--)
+    if (!spore_soft_may(document_of(self), bodies->pdata[i - 1], NULL)) g_ptr_array_remove_index(bodies, i - 1);
+  SporeSoftWork *work = bodies->len ? spore_soft_work_new(document_of(self), bodies, &error) : NULL;
+  if (work) spore_window_start_job(self, _("Making soft"), spore_soft_work_run, work, spore_soft_work_free, made_soft);
+  else spore_window_failed(self, error);
+}
+
+/* Holding. */
+
+/* Of several bodies, those that fall. */
+static gboolean hold_all(SporeDocument *document, const GPtrArray *bodies, GError **error) {
+  for (guint i = 0; i < bodies->len; i++) {
+    SporeObject *body = bodies->pdata[i];
+    if (bodies->len > 1 && (SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE) continue;
+    if (!spore_edit_add_pin(document, body, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  g_autoptr(GError) error = NULL;
+  SporeObject *only = bodies->len ? NULL : spore_window_body_to_work_on(self);
+  if (only) g_ptr_array_add(bodies, only);
+  spore_document_begin(document_of(self), _("Hold"));
+  if (!spore_edit_finish(document_of(self), hold_all(document_of(self), bodies, &error)))
+    spore_window_failed(self, error);
+}
+
+/* Hiding. */
+
+static void shown_changed(SporeWindow *self) {
+  spore_window_update_actions(self);
+  spore_window_show_hint(self);
+}
+
+/* The selected bodies are hidden, or shown alone. */
+static void act_hide(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  gboolean alone = g_str_equal(g_action_get_name(G_ACTION(action)), "isolate");
+  if (!bodies->len) return;
+  (alone ? spore_viewport_isolate : spore_viewport_hide)(SPORE_VIEWPORT(self->viewport), bodies);
+  shown_changed(self);
+}
+
+static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  spore_viewport_show_all(SPORE_VIEWPORT(self->viewport));
+  shown_changed(self);
+}
+
+/* Deleting. */
+
+static gboolean delete_all(SporeDocument *document, const GArray *ids, GError **error) {
+  for (guint i = 0; i < ids->len; i++) {
+    SporeObject *object = spore_document_by_id(document, g_array_index(ids, guint32, i));
+    if (object && spore_object_name(object) && !spore_document_remove(document, object, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32)); /* the selection changes meanwhile */
+  gsize count;
+  const guint32 *selected = spore_editor_document_get_selected(self->document, &count);
+  g_array_append_vals(ids, selected, (guint)count);
+  spore_document_begin(document_of(self), _("Delete"));
+  if (!spore_edit_finish(document_of(self), delete_all(document_of(self), ids, &error)))
+    spore_window_failed(self, error);
+}
+
+void spore_window_add_body_actions(SporeWindow *self) {
+  static const GActionEntry actions[] = {
+      {"select-organs", act_select_organs},
+      {"make-soft", act_make_soft},
+      {"add-pin", act_add_pin},
+      {"hide", act_hide},
+      {"isolate", act_hide},
+      {"show-all", act_show_all},
+      {"delete", act_delete},
+  };
+  g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+}
