@@ -12,6 +12,8 @@
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
+#define MANY 1.1 /* times as many cells as were asked for */
+
 typedef char *(*Formatter)(const SporeTetrahedralMesh *mesh, gsize *size);
 
 static Formatter formatter_of(const char *file) {
@@ -164,6 +166,16 @@ static gboolean write_cells(const LabelWork *work, GError **error) {
   return spore_write_file(work->output, text, size, error);
 }
 
+/* Says where many more cells than asked for were needed. */
+static void say_many(SporeCli *cli, const LabelWork *work) {
+  const size_t asked = (size_t)work->fields.cells, made = work->mesh.tetrahedron_count;
+  if (work->fields.size > 0 || (double)made <= MANY * (double)asked) return;
+  spore_cli_say(cli,
+                _("%zu cells were asked for: fewer than %zu would make cells too flat, or join what the labels part; "
+                  "ask for more, or clean and smooth the labels\n"),
+                asked, made);
+}
+
 /* Meshes the labels chosen of a map; its file states the unit and the axes. */
 static gboolean generate_labels(SporeCli *cli, LabelWork *work, GError **error) {
   gsize size;
@@ -173,6 +185,7 @@ static gboolean generate_labels(SporeCli *cli, LabelWork *work, GError **error) 
                                   error))
     return FALSE;
   spore_cli_report_labels(cli, &work->mesh, &work->figures, work->survey);
+  say_many(cli, work);
   if (!work->output) return TRUE;
   return spore_cli_is_scene(work->output) ? save_scene(cli, work, error) : write_cells(work, error);
 }

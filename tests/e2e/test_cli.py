@@ -610,7 +610,10 @@ def scene_of_a_label_map():
     assert not any("stale" in d["message"] for d in report("check", "patient/patient.spore")["diagnostics"])
     report("run", "patient/patient.spore", "--steps", 3)
     again = spore("tetrahedra", "patient.seg.nrrd", "--cells", 600, "-o", "patient/patient.spore")
-    assert "takes the place" in again.stdout
+    assert "takes the place" in again.stdout and "were asked for" not in again.stdout
+    side = 16
+    specks = bytes(int(i % 4 < 2 and j % 4 < 2 and k % 4 < 2) for k in range(side) for j in range(side) for i in range(side))
+    assert "cells were asked for" in spore("tetrahedra", file("specks.nrrd", shapes.nrrd((side,) * 3, specks)), "--cells", 20).stdout
     file("surface.off", shapes.off(*shapes.sphere()))
     refuses("tetrahedra", "surface.off", "--cells", 100, "-o", "x.spore", says=["x.spore", "surface", "--body"])
 
