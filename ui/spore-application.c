@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/generator.h"
+#include "core/io/scene_xml.h"
 #include "models/registry.h"
 #include "ui/sim/session-work.h"
 #include "ui/spore-window.h"
@@ -112,7 +113,7 @@ static void spore_application_open(GApplication *application, GFile **files, int
   for (int i = 0; i < count; i++) {
     g_autofree char *path = g_file_get_path(files[i]);
     g_autofree char *uri = g_file_get_uri(files[i]);
-    if (path && !g_str_has_suffix(path, ".spore")) g_ptr_array_add(meshes, g_steal_pointer(&path));
+    if (path && !spore_scene_is_name(path)) g_ptr_array_add(meshes, g_steal_pointer(&path));
     else spore_window_open(window_to_fill(self), path ? path : uri);
   }
   if (meshes->len == 0) return;

@@ -1,7 +1,9 @@
 /* The window's document: replacing it and following it, opening and saving, and what is asked before it is lost. */
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "core/base/memory.h"
+#include "core/io/bundle.h"
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 #include "ui/jobs/works.h"
@@ -90,7 +92,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   player_changed(self);
 }
 
-/* Choosing files. g_free; NULL: the user went back. */
+/* Choosing files. pattern: one or several, with blanks between. g_free; NULL: the user went back. */
 
 static char *choose_file(SporeWindow *self, GtkFileChooserAction action, const char *title, const char *accept,
                          const char *pattern, const char *pattern_name, const char *proposed) {
@@ -99,7 +101,8 @@ static char *choose_file(SporeWindow *self, GtkFileChooserAction action, const c
   GtkFileChooser *chooser = GTK_FILE_CHOOSER(native);
   GtkFileFilter *filter = gtk_file_filter_new();
   gtk_file_filter_set_name(filter, pattern_name);
-  gtk_file_filter_add_pattern(filter, pattern);
+  g_auto(GStrv) patterns = g_strsplit(pattern, " ", -1);
+  for (char **one = patterns; *one; one++) gtk_file_filter_add_pattern(filter, *one);
   gtk_file_chooser_add_filter(chooser, filter);
   gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
   if (proposed) gtk_file_chooser_set_current_name(chooser, proposed);
@@ -126,6 +129,7 @@ static gboolean save_to(SporeWindow *self, const char *file) {
 
 static gboolean save_as(SporeWindow *self) {
   g_autofree char *title = spore_editor_document_get_title(self->document);
+  if (spore_bundle_is_name(title)) title[strlen(title) - 1] = '\0'; /* .spore */
   g_autofree char *proposed = with_extension(g_strdup(title), ".spore");
   g_autofree char *file = with_extension(choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save scene"), _("_Save"),
                                                      "*.spore", _("SPORE scenes"), proposed),
@@ -210,8 +214,8 @@ static void act_open(GSimpleAction *action, GVariant *parameter, gpointer data) 
 }
 
 static void act_open_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file =
-      choose_file(data, GTK_FILE_CHOOSER_ACTION_OPEN, _("Open scene"), _("_Open"), "*.spore", _("SPORE scenes"), NULL);
+  g_autofree char *file = choose_file(data, GTK_FILE_CHOOSER_ACTION_OPEN, _("Open scene"), _("_Open"),
+                                      "*.spore *.sporez", _("SPORE scenes"), NULL);
   if (file) spore_window_open(data, file);
 }
 

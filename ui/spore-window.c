@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 #include "ui/spore-window-private.h"
 
@@ -126,7 +127,7 @@ static void files_dropped(GtkWidget *widget, GdkDragContext *context, int x, int
   gtk_drag_finish(context, files->len > 0, FALSE, time);
   if (files->len == 0) return;
   g_ptr_array_add(files, NULL);
-  if (g_str_has_suffix(files->pdata[0], ".spore"))
+  if (spore_scene_is_name(files->pdata[0]))
     g_action_group_activate_action(G_ACTION_GROUP(self), "open", g_variant_new_string(files->pdata[0]));
   else spore_window_show_import_dialog(self, (const char *const *)files->pdata);
 }

@@ -28,6 +28,10 @@ static gboolean read_failed(const char *file, int fault, GError **error) {
                            g_strerror(fault));
 }
 
+gboolean spore_scene_is_name(const char *file) {
+  return g_str_has_suffix(file, ".spore") || spore_bundle_is_name(file);
+}
+
 SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GError **error) {
   if (spore_bundle_is_name(file)) return spore_bundle_load(schema, file, NULL, error);
   int fault = 0;

@@ -7,7 +7,10 @@
 /* Readers of meshes, spheres and tetrahedra for a document. */
 extern const SporeAssetReaders spore_io_readers;
 
-/* Loads a scene. NULL with a GError "FILE:LINE:COLUMN: ..." at the first fault. The document has spore_io_readers. */
+/* Whether a file of that name is a scene: it ends in .spore or .sporez. */
+gboolean spore_scene_is_name(const char *file);
+/* Loads a scene, from a bundle, too (core/io/bundle.h). NULL with a GError "FILE:LINE:COLUMN: ..." at the first fault.
+ * The document has spore_io_readers. */
 SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GError **error);
 /* As spore_scene_load, from memory. `file` (may be NULL) is the name in messages and gives the folder. */
 SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, const char *text, gsize size,

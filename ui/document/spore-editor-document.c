@@ -213,6 +213,7 @@ gboolean spore_editor_document_is_modified(SporeEditorDocument *self) {
 
 char *spore_editor_document_get_title(SporeEditorDocument *self) {
   const char *file = spore_editor_document_get_save_file(self);
+  if (!file) file = spore_document_bundle(self->document);
   return file ? g_path_get_basename(file) : g_strdup(_("Untitled"));
 }
 

@@ -50,11 +50,12 @@ gssize spore_editor_document_get_point(SporeEditorDocument *self);
 /* What the scene itself remembers of a study. */
 SporeMeasured spore_editor_document_get_measured(SporeEditorDocument *self);
 
-/* Where Save writes: the document's file, or the original of one that was recovered. NULL: ask. */
+/* Where Save writes: the document's file, or the original of one that was recovered. NULL: ask, of what came from a
+ * bundle, too. */
 const char *spore_editor_document_get_save_file(SporeEditorDocument *self);
 void spore_editor_document_set_recovered(SporeEditorDocument *self, const char *original);
 gboolean spore_editor_document_is_modified(SporeEditorDocument *self);
-/* "liver.spore", or "Untitled". g_free. */
+/* "liver.spore", "liver.sporez" of a bundle, or "Untitled". g_free. */
 char *spore_editor_document_get_title(SporeEditorDocument *self);
 /* Saves under `file`; NULL: the save file, which must exist. */
 gboolean spore_editor_document_save(SporeEditorDocument *self, const char *file, GError **error);

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/io/bundle.h"
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 
@@ -36,7 +37,9 @@ static void decode_asset(SporeDocument *document, SporeObject *asset) {
 
 gboolean spore_open_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeOpenWork *work = data;
-  work->document = spore_scene_load(work->schema, work->file, error);
+  gboolean bundle = spore_bundle_is_name(work->file);
+  work->document = bundle ? spore_bundle_load(work->schema, work->file, progress, error)
+                          : spore_scene_load(work->schema, work->file, error);
   if (!work->document) return FALSE;
   spore_document_set_readers(work->document, &spore_editor_readers);
   SporeObject *assets = spore_document_section(work->document, "assets");
