@@ -23,7 +23,8 @@ typedef struct SporeTrace {
   SporeVec3 at[4];   /* where it was: now, and one to three looks ago */
   SporeVec3 stopped; /* economy: where it was when a step was last done */
   unsigned seen;     /* entries of `at` */
-  bool on;           /* it moves, holds, or exceeds */
+  bool on;           /* it moves, or holds */
+  uint32_t held;     /* drops: the body that it holds, where it does */
   double path;       /* m */
   double sum, time;  /* of what the metric adds up; s */
   uint64_t touching; /* instruments that it touches, a bit each */

@@ -344,27 +344,48 @@ static bool lies_on_something(Exercise exercise, const SporeWorld *world, uint32
   return false;
 }
 
+static size_t holds(Exercise exercise, const SporeWorld *world, uint32_t instrument, uint32_t body) {
+  uint32_t tool = exercise->instruments[instrument].tool;
+  return tool == SPORE_NO_PART ? 0 : spore_world_tool_holds(world, tool, body);
+}
+
+static bool is_held_by_any(Exercise exercise, const SporeWorld *world, uint32_t body) {
+  bool held = false;
+  for (uint32_t i = 0; i < exercise->instrument_count && !held; i++) held = holds(exercise, world, i, body) > 0;
+  return held;
+}
+
+/* Begins to follow a body that the instrument holds, of those that the metric is about. */
+static void follow_hold(Exercise exercise, const SporeMetricRun *metric, const SporeWorld *world, uint32_t instrument) {
+  SporeTrace *trace = &metric->traces[instrument];
+  uint32_t wanted = metric->from.body;
+  trace->on = false;
+  for (uint32_t b = 0; b < exercise->body_count && !trace->on; b++) {
+    trace->on = (wanted == SPORE_NO_BODY || wanted == b) && holds(exercise, world, instrument, b) > 0;
+    trace->held = b;
+  }
+}
+
 static void count_drops(Exercise exercise, SporeMetricRun *metric, const SporeWorld *world, double h) {
   (void)h;
   for (uint32_t i = 0; i < exercise->instrument_count; i++) {
-    uint32_t tool = exercise->instruments[i].tool;
     SporeTrace *trace = &metric->traces[i];
-    if (!is_meant(metric, i) || tool == SPORE_NO_PART) continue;
-    bool holds = spore_world_tool_holds(world, tool, metric->from.body) > 0;
-    bool torn = spore_world_tool_state(world, tool).lost > 0;
-    if (trace->on && !holds) metric->count += torn || !lies_on_something(exercise, world, metric->from.body);
-    trace->on = holds;
+    if (!is_meant(metric, i) || exercise->instruments[i].tool == SPORE_NO_PART) continue;
+    if (trace->on && holds(exercise, world, i, trace->held) > 0) continue;
+    bool torn = spore_world_tool_state(world, exercise->instruments[i].tool).lost > 0;
+    bool stays = lies_on_something(exercise, world, trace->held) || is_held_by_any(exercise, world, trace->held);
+    if (trace->on) metric->count += torn || !stays;
+    follow_hold(exercise, metric, world, i);
   }
 }
-static const SporeParameter drops_rows[] = {GRADED, TOOL,
-                                            SPORE_ROW_BODY(SporeMetricFields, body, body, N_("Body that jaws hold."))};
+static const SporeParameter drops_rows[] = {
+    GRADED, TOOL, SPORE_ROW_BODY(SporeMetricFields, body, body, N_("Body that jaws hold; none: any."))};
 static const SporeMetricKind drops = {
     .element = "drops",
     .label = N_("Drops"),
-    .doc = N_("How often a body tears out of jaws, or is let go where it lies on nothing."),
+    .doc = N_("How often a body tears out of jaws, or is let go where it lies on nothing and no other jaws hold it."),
     .parameters = SPORE_TABLE(drops_rows, SporeMetricFields),
     COUNTED,
-    .needs_body = true,
     .traces = true,
     .look = count_drops,
     .value = count_of};

@@ -21,6 +21,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_tissue.py organs table1
 /usr/bin/python3 ../meshes/make_bag.py bag
 /usr/bin/python3 ../meshes/make_adnexa.py exercise-salpingectomy
+/usr/bin/python3 ../meshes/make_pegs.py exercise-peg-transfer
 /usr/bin/python3 ../meshes/make_laparoscopy.py laparoscopy
 /usr/bin/python3 ../meshes/make_knot.py knot
 /usr/bin/python3 ../meshes/make_suture.py suture instruments

@@ -303,6 +303,33 @@ def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
     assert metrics(exercise)["errors"]["value"] == metrics(exercise)["drops"]["value"] == 0
 
 
+def run_exercise(name, count, *options):
+    done = subprocess.run([SPORE, "run", SCENES / f"{name}.spore", "-n", str(count), "--json", *map(str, options)], capture_output=True,
+                          text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return json.loads(done.stdout)["exercise"]
+
+
+def left(exercise):
+    """Names of the steps that are not done."""
+    return [step["name"] for step in exercise["steps"] if step["phase"] != "done"]
+
+
+@check
+def rings_go_over_and_back_by_their_track():
+    """From hand to hand in mid-air is no drop; the other track lets a ring fall."""
+    short = is_sanitized(SPORE)
+    exercise = run_exercise("exercise-peg-transfer", 4100 if short else 46400)
+    assert len(exercise["steps"]) == 48 and len(left(exercise)) == (44 if short else 0), left(exercise)
+    assert steps(exercise)["over_1"]["phase"] == "done" and metrics(exercise)["drops"]["value"] == 0, exercise
+    if not short:
+        assert exercise["passed"] and exercise["score"] == 100 and exercise["time_s"] < 48, exercise
+    fallen = run_exercise("exercise-peg-transfer", 4000, "--input", SCENES / "exercise-peg-transfer" / "fall.track")
+    assert metrics(fallen)["drops"]["value"] == 1 and metrics(fallen)["drops"]["verdict"] == "fail", fallen
+    assert steps(fallen)["lift_1"]["phase"] == "done" and steps(fallen)["pass_1"]["phase"] == "open", fallen
+    assert fallen["score"] < 5 and not fallen["passed"], fallen
+
+
 @check
 def what_comes_before_its_turn_is_an_error():
     exercise = run_shipped("exercise-salpingectomy", '<lifted name="high" body="adnexa" height="5"/>'

@@ -52,6 +52,17 @@ def every_shipped_scene_plays(*_):
 
 
 @check
+def an_exercise_comes_to_the_same_end(*_):
+    """An exercise that goes on from step to step comes to the same events, metrics and score"""
+    scene, steps = SCENES / "exercise-peg-transfer.spore", 4100
+    file, _ = export(scene)
+    played, alone = state(PLAYER, file, "--steps", steps), state(SPORE, "run", scene, "-n", steps)
+    assert played["exercise"] == alone["exercise"] and sum(s["phase"] == "done" for s in played["exercise"]["steps"]) == 4, played
+    said = run(PLAYER, file, "--steps", 1500)
+    assert "2 of 48 steps done" in said and "step take_1: done at" in said and "step pass_1: not done" in said, said
+
+
+@check
 def settings_and_input_come_along(*_):
     """Settings, another step and another input come along"""
     scene = SCENES / "plate1-ovary.spore"
