@@ -130,7 +130,6 @@ static gboolean write_all(Writer *writer, const GPtrArray *names, GError **error
     return pass_on(writer, error);
   gboolean done = write_scene(writer, error);
   for (guint i = 0; done && i < names->len; i++) done = write_file(writer, names->pdata[i], error);
-  if (!done) archive_write_fail(archive);
   return done && (archive_write_close(archive) == ARCHIVE_OK || pass_on(writer, error));
 }
 
