@@ -23,7 +23,8 @@ typedef struct Model {
   GString *world;   /* sites that belong to no body */
   GString *equalities, *tendons;
   guint sites, lost_links;
-  GString *text; /* the file; NULL: not made yet */
+  gsize free_spheres; /* of all bodies that are free */
+  GString *text;      /* the file; NULL: not made yet */
 } Model;
 
 static const SporeObject *object_of(const Model *model, guint body) {
@@ -71,6 +72,7 @@ static gboolean add_spheres(Model *model, guint body, const SporeSphereSet *set,
   for (gsize i = 0; i < set->count; i++) memcpy(centres + 3 * i, set->spheres + 4 * i, 3 * sizeof *centres);
   spore_spheres_radii(set, radii, 1);
   if (!place_inside(model, body, centres, set->count, &places, error)) return FALSE;
+  if (model->fates[body] == FATE_FREE) model->free_spheres += set->count;
   for (gsize i = 0; i < set->count; i++) {
     GString *text = model->inside[body];
     g_string_append(text, "<geom");
@@ -208,6 +210,13 @@ static void write_body(const Model *model, guint body, GString *text) {
   g_string_append_printf(text, ">\n%s</body>\n", model->inside[body]->str);
 }
 
+/* MuJoCo 2.2 has room for 100 contacts and 500 rows of constraints where a file says nothing, and leaves out the rest:
+ * room for 4 contacts of each sphere of a free body, with 4 rows each. */
+static void write_sizes(const Model *model, GString *text) {
+  gsize contacts = 100 + 4 * model->free_spheres;
+  g_string_append_printf(text, "<size nconmax=\"%zu\" njmax=\"%zu\"/>\n", contacts, 100 + 4 * contacts);
+}
+
 static GString *write_model(const Model *model) {
   SporeDocument *document = model->export->document;
   double dt_s = spore_object_number(spore_document_section(document, "solver"), "time_step");
@@ -217,7 +226,9 @@ static GString *write_model(const Model *model) {
       g_string_new("<mujoco model=\"spore\">\n<!-- SPORE: m, kg, s -->\n<compiler angle=\"radian\"/>\n<option");
   append_attribute(text, "timestep", &dt_s, 1);
   append_attribute(text, "gravity", environment.gravity, 3);
-  g_string_append(text, "/>\n<default><geom type=\"sphere\"/></default>\n<worldbody>\n");
+  g_string_append(text, "/>\n");
+  write_sizes(model, text);
+  g_string_append(text, "<default><geom type=\"sphere\"/></default>\n<worldbody>\n");
   g_string_append(text, model->world->str);
   for (guint body = 0; body < model->count; body++) write_body(model, body, text);
   g_string_append_printf(text, "</worldbody>\n<tendon>\n%s</tendon>\n<equality>\n%s</equality>\n</mujoco>\n",

@@ -127,10 +127,12 @@ static gboolean is_fluid(const SporeObject *body) {
   return model && spore_object_type(model)->model->particles;
 }
 
-/* `wanted` where it is of the right kind, else the first body of the scene that is. */
+/* `wanted` where it is of the right kind, else the first body of the scene that is, where the metric means nothing
+ * without one. */
 static const SporeObject *find_body(SporeDocument *document, const SporeMetricKind *kind, const SporeObject *wanted) {
   const SporeObject *bodies = spore_document_section(document, "bodies");
   if (wanted && (!kind->needs_fluid || is_fluid(wanted))) return wanted;
+  if (!kind->needs_body) return NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     const SporeObject *body = spore_object_child(bodies, i);
     if (!kind->needs_fluid || is_fluid(body)) return body;
@@ -142,7 +144,7 @@ static const SporeObject *find_body(SporeDocument *document, const SporeMetricKi
 static gboolean write_subject(SporeDocument *document, SporeObject *metric, const SporeObject *wanted, GError **error) {
   const SporeObjectType *type = spore_object_type(metric);
   const SporeMetricKind *kind = spore_metric_kind_find(type->element);
-  const SporeObject *body = kind->needs_body ? find_body(document, kind, wanted) : NULL;
+  const SporeObject *body = parameter_of(type, "body") ? find_body(document, kind, wanted) : NULL;
   const SporeObject *camera = kind->needs_view ? find_tool(document, parameter_of(type, "camera")) : NULL;
   if (kind->needs_fluid && !body)
     return refuse(type, _("the scene has no fluid; expected a body of particles; add one first"), error);

@@ -126,7 +126,7 @@ static void test_refusals(void) {
 static void test_subject(void) {
   Scene scene = scene_new(tools);
   g_assert_true(spore_object_refers_to(add_metric(&scene, "drops", scene.ends[1].body), scene.ends[1].body));
-  g_assert_true(spore_object_refers_to(add_metric(&scene, "drops", NULL), scene.ends[0].body));
+  g_assert_null(spore_object_reference(add_metric(&scene, "drops", NULL), "body"));
   const SporeObject *blood = spore_document_find(scene.document, "body", "blood");
   g_assert_true(spore_object_refers_to(add_metric(&scene, "blood_lost", scene.ends[1].body), blood));
   scene_free(&scene);
