@@ -1,19 +1,40 @@
-/* spore render: a picture of a scene, with or without a display. */
+/* spore render: a picture of a scene, a row of pictures, or a film; with or without a display. */
 #include <glib/gi18n.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "app/cli/cli.h"
 #include "app/cli/scene.h"
-#include "ui/render/stage.h"
+#include "ui/render/filming.h"
 
 #define LARGEST_SIDE 8192
+#define LARGEST_FPS 1000
+#define LARGEST_SPEED 1000
 
 typedef struct RenderOptions {
-  char *size, *output, *camera, *time;
+  char *size, *output, *camera, *time, *beside;
+  char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
   gboolean spheres, tetrahedra;
   SporeSceneOptions scene;
 } RenderOptions;
+
+/* The runs that are drawn, side by side. */
+typedef struct Runs {
+  guint count;
+  SporeRun *runs[SPORE_FILMING_MOST];
+  GArray *levels[SPORE_FILMING_MOST]; /* changes of level */
+} Runs;
+
+static void clear_runs(Runs *runs) {
+  for (guint i = 0; i < runs->count; i++) {
+    if (runs->levels[i]) g_array_unref(runs->levels[i]);
+    spore_run_free(runs->runs[i]);
+  }
+}
+G_DEFINE_AUTO_CLEANUP_CLEAR_FUNC(Runs, clear_runs)
+
+/* What the options say without a scene. */
 
 static gboolean parse_size(const char *text, int *width, int *height, GError **error) {
   char end = 0;
@@ -25,74 +46,159 @@ static gboolean parse_size(const char *text, int *width, int *height, GError **e
                            text, LARGEST_SIDE);
 }
 
-static gboolean draw(SporeRun *run, const RenderOptions *options, int width, int height, char **gl_renderer,
-                     GError **error) {
-  SporeOffscreen *offscreen = spore_offscreen_new(error);
-  SporeRenderer *renderer = offscreen ? spore_renderer_new(offscreen, error) : NULL;
-  gboolean drawn = FALSE;
-  if (renderer) {
-    SporeStage *stage = spore_stage_new(renderer, run->document);
-    SporeStageOptions shown = {.surfaces = TRUE, .spheres = options->spheres, .tetrahedra = options->tetrahedra};
-    spore_stage_set_options(stage, &shown);
-    spore_stage_rebuild(stage, run->simulation);
-    spore_stage_update(stage, spore_world_snapshot_acquire(run->simulation->world));
-    SporeCamera camera;
-    SporeRenderOptions how = {.width = width, .height = height, .antialias = TRUE};
-    g_autofree guint8 *pixels = g_malloc((gsize)width * (gsize)height * 4);
-    drawn = spore_stage_camera(stage, options->camera, (double)width / height, &camera, error) &&
-            spore_renderer_draw(renderer, &camera, &how, pixels, (gsize)width * 4, error) &&
-            spore_png_write(options->output, pixels, width, height, (gsize)width * 4, error);
-    spore_stage_free(stage);
-    *gl_renderer = g_strdup(spore_offscreen_renderer(offscreen));
-  }
-  spore_renderer_free(renderer);
-  spore_offscreen_free(offscreen);
-  return drawn;
+/* A number above 0; NULL keeps what is there. */
+static gboolean parse_rate(const char *option, const char *text, double largest, double *rate, GError **error) {
+  if (!text || (spore_cli_seconds(option, text, rate, NULL) && *rate > 0 && *rate <= largest)) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, option,
+                           _("'%s'; expected a number that is more than 0 and at most %g"), text, largest);
+}
+
+/* A film's size is bounded where the pictures of two runs stand in a row. */
+static gboolean check_width(const RenderOptions *options, int width, GError **error) {
+  if (!options->beside || 2 * width <= LARGEST_SIDE) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, "--size",
+                           _("two pictures of %d pixels side by side are too wide; expected at most %d each"), width,
+                           LARGEST_SIDE / 2);
+}
+
+static gboolean parse_filming(const RenderOptions *options, SporeFilming *filming, GError **error) {
+  const struct {
+    const char *option, *text;
+  } of_films[] = {{"--from", options->from}, {"--fps", options->fps}, {"--speed", options->speed}};
+  SporeReelKind kind;
+  *filming = (SporeFilming){.file = options->output,
+                            .fps = 30,
+                            .speed = 1,
+                            .camera = options->camera,
+                            .shown = {TRUE, options->spheres, options->tetrahedra, FALSE},
+                            .cancel = spore_cli_cancel()};
+  if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
+  for (gsize i = 0; kind == SPORE_REEL_PICTURE && i < G_N_ELEMENTS(of_films); i++)
+    if (of_films[i].text)
+      return spore_error_raise(error, SPORE_ERROR_INPUT, options->output,
+                               _("is the name of one picture, and %s is of several; expected F-%%05d.png (a row of "
+                                 "pictures) or F.webm (a film)"),
+                               of_films[i].option);
+  return parse_size(options->size, &filming->width, &filming->height, error) &&
+         check_width(options, filming->width, error) &&
+         parse_rate("--fps", options->fps, LARGEST_FPS, &filming->fps, error) &&
+         parse_rate("--speed", options->speed, LARGEST_SPEED, &filming->speed, error) &&
+         (!options->from || spore_cli_seconds("--from", options->from, &filming->from_s, error)) &&
+         (!options->time || spore_cli_seconds("--time", options->time, &filming->to_s, error));
+}
+
+static gboolean check_output(const char *scene, const RenderOptions *options, GError **error) {
+  const char *const inputs[] = {scene, options->scene.input, options->beside};
+  g_autofree char *first = spore_reel_file(options->output, 0);
+  for (gsize i = 0; i < G_N_ELEMENTS(inputs); i++)
+    if (inputs[i] && !spore_cli_has_room(first, inputs[i], error)) return FALSE;
+  return TRUE;
+}
+
+/* What they say with a scene. */
+
+static gboolean open_run(SporeCli *cli, const char *scene, const SporeSceneOptions *how, char **level, Runs *runs,
+                         GError **error) {
+  SporeRun *run = spore_run_open(cli, scene, how, 1, error);
+  if (!run) return FALSE;
+  guint index = runs->count++;
+  runs->runs[index] = run;
+  runs->levels[index] = spore_level_changes_parse(run->simulation->world, level, error);
+  return runs->levels[index] != NULL;
+}
+
+static gboolean open_runs(SporeCli *cli, const char *scene, const RenderOptions *options, Runs *runs, GError **error) {
+  if (!open_run(cli, scene, &options->scene, options->level, runs, error)) return FALSE;
+  SporeSceneOptions beside = options->scene;
+  beside.input = options->beside;
+  return !options->beside || open_run(cli, scene, &beside, options->level, runs, error);
+}
+
+/* A film ends where the recorded input does, unless --time says where. */
+static gboolean find_end(const RenderOptions *options, const Runs *runs, SporeFilming *filming, GError **error) {
+  SporeReelKind kind;
+  if (!spore_reel_kind(options->output, &kind, error) || kind == SPORE_REEL_PICTURE) return kind == SPORE_REEL_PICTURE;
+  for (guint i = 0; !options->time && i < runs->count; i++)
+    filming->to_s = fmax(filming->to_s, spore_filming_end_of_input(runs->runs[i]->simulation));
+  if (filming->to_s > filming->from_s) return TRUE;
+  if (!options->time && filming->to_s <= 0)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, options->output, "%s",
+                             _("nothing says when it ends, since the scene has no recorded input; expected --time S"));
+  return spore_error_raise(error, SPORE_ERROR_INPUT, "--time",
+                           _("ends at %g s, and begins at %g s; expected an end after the beginning"), filming->to_s,
+                           filming->from_s);
+}
+
+static void change_levels(gpointer data, guint simulation) {
+  Runs *runs = data;
+  spore_level_changes_post(runs->levels[simulation], runs->runs[simulation]->simulation->world);
+}
+
+static void tell(SporeCli *cli, const char *output, const SporeFilmed *filmed) {
+  spore_cli_count(cli, "width", filmed->width);
+  spore_cli_count(cli, "height", filmed->height);
+  spore_cli_count(cli, "frames", (gint64)filmed->pictures);
+  spore_cli_number(cli, "length_s", filmed->length_s);
+  spore_cli_text(cli, "gl_renderer", filmed->gl_renderer);
+  if (filmed->length_s > 0)
+    spore_cli_say(cli, _("%s: %d x %d, %llu pictures, %.2f s, drawn by %s\n"), output, filmed->width, filmed->height,
+                  (unsigned long long)filmed->pictures, filmed->length_s, filmed->gl_renderer);
+  else spore_cli_say(cli, _("%s: %d x %d, drawn by %s\n"), output, filmed->width, filmed->height, filmed->gl_renderer);
 }
 
 static int render(SporeCli *cli, const char *scene, const RenderOptions *options) {
   GError *error = NULL;
-  int width = 0, height = 0;
-  double time_s = 0;
-  if (!spore_cli_has_room(options->output, scene, &error) || !parse_size(options->size, &width, &height, &error) ||
-      (options->time && !spore_cli_seconds("--time", options->time, &time_s, &error)))
+  SporeFilming filming;
+  g_auto(Runs) runs = {0};
+  if (!parse_filming(options, &filming, &error) || !check_output(scene, options, &error) ||
+      !open_runs(cli, scene, options, &runs, &error) || !find_end(options, &runs, &filming, &error))
     return spore_cli_fail(error);
-  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, 1, &error);
-  if (!run) return spore_cli_fail(error);
-  SporeWorld *world = run->simulation->world;
-  g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
-  if (!levels) return spore_cli_fail(error);
-  while (spore_world_time_s(world) < time_s * (1 - 1e-12) && !spore_cli_interrupted()) {
-    spore_level_changes_post(levels, world);
-    spore_world_step(world);
-    spore_world_tidy(world);
-    spore_progress(spore_cli_progress(cli), spore_world_time_s(world) / time_s, _("running"));
-  }
-  if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
-  g_autofree char *gl_renderer = NULL;
-  if (!draw(run, options, width, height, &gl_renderer, &error)) return spore_cli_fail(error);
-  spore_cli_count(cli, "width", width);
-  spore_cli_count(cli, "height", height);
-  spore_cli_count(cli, "frames", 1);
-  spore_cli_text(cli, "gl_renderer", gl_renderer);
-  spore_cli_say(cli, _("%s: %d x %d, drawn by %s\n"), options->output, width, height, gl_renderer);
+  filming.count = runs.count;
+  for (guint i = 0; i < runs.count; i++)
+    filming.documents[i] = runs.runs[i]->document, filming.simulations[i] = runs.runs[i]->simulation;
+  filming.before_step = change_levels;
+  filming.data = &runs;
+  SporeFilmed filmed;
+  if (!spore_filming_run(&filming, spore_cli_progress(cli), &filmed, &error)) return spore_cli_fail(error);
+  tell(cli, options->output, &filmed);
+  g_free(filmed.gl_renderer);
   return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }
 
+static void clear_options(RenderOptions *options) {
+  char *const texts[] = {options->size,   options->output, options->camera, options->time,
+                         options->beside, options->from,   options->fps,    options->speed};
+  for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
+  g_strfreev(options->level);
+  spore_scene_options_clear(&options->scene);
+}
+
 int spore_command_render(SporeCli *cli, int argc, char **argv) {
-  static const SporeReportMember members[] = {{"width", N_("of the picture, pixels")},
-                                              {"height", N_("of the picture, pixels")},
-                                              {"frames", N_("number of pictures")},
-                                              {"gl_renderer", N_("what drew it")},
-                                              {NULL, NULL}};
-  static const SporeCommandInfo info = {"render", "SCENE", N_("Makes a picture of a scene (PNG)."), 1, 1, members};
+  static const SporeReportMember members[] = {
+      {"width", N_("of the picture, pixels")}, {"height", N_("of the picture, pixels")},
+      {"frames", N_("number of pictures")},    {"length_s", N_("of the film or the row, s; 0: a single picture")},
+      {"gl_renderer", N_("what drew it")},     {NULL, NULL}};
+  static const SporeCommandInfo info = {
+      "render", "SCENE", N_("Makes a picture of a scene (PNG), a row of pictures, or a film (WebM)."), 1, 1, members};
   RenderOptions options = {0};
   const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, N_("Picture to write"), "F.png"},
-      {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time of the picture (default 0)"), "S"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
+       N_("F.png: a picture; F-%05d.png: a row of pictures, numbered from 0; F.webm: a film"), "F"},
+      {"time", 't', 0, G_OPTION_ARG_STRING, &options.time,
+       N_("Simulated time of the picture (default 0), or of the end of the film (default: when the recorded input "
+          "ends)"),
+       "S"},
+      {"from", 0, 0, G_OPTION_ARG_STRING, &options.from, N_("Simulated time at which the film begins (default 0)"),
+       "S"},
+      {"fps", 0, 0, G_OPTION_ARG_STRING, &options.fps, N_("Pictures of the film in a second (default 30)"), "N"},
+      {"speed", 0, 0, G_OPTION_ARG_STRING, &options.speed,
+       N_("Simulated seconds in a second of the film (default 1); 0.25: slow motion"), "X"},
+      {"beside", 0, 0, G_OPTION_ARG_FILENAME, &options.beside,
+       N_("Show at the right, at the same moments, the scene with this recorded device input"), "TRACK"},
       {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
        N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
-      {"size", 's', 0, G_OPTION_ARG_STRING, &options.size, N_("Size in pixels (default 1280x720)"), "WxH"},
+      {"size", 's', 0, G_OPTION_ARG_STRING, &options.size,
+       N_("Size in pixels (default 1280x720); with --beside, of each of the two"), "WxH"},
       {"camera", 0, 0, G_OPTION_ARG_STRING, &options.camera,
        N_("Camera of the scene (default: the first, or one that sees all)"), "NAME"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
@@ -101,14 +207,9 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
-    if (!options.output) status = spore_cli_usage(_("spore render: no picture named; expected -o F.png"));
+    if (!options.output) status = spore_cli_usage(_("spore render: no picture named; expected -o F.png or F.webm"));
     else status = render(cli, argv[1], &options);
   }
-  spore_scene_options_clear(&options.scene);
-  g_free(options.output);
-  g_free(options.time);
-  g_free(options.size);
-  g_free(options.camera);
-  g_strfreev(options.level);
+  clear_options(&options);
   return status;
 }

@@ -1,0 +1,82 @@
+/* Draws simulations side by side into one picture, without a window. */
+#include "ui/render/panes.h"
+
+/* What draws one simulation: the renderer draws all that it holds, so that each has its own. */
+typedef struct Pane {
+  SporeSimulation *simulation;
+  SporeRenderer *renderer;
+  SporeStage *stage;
+  char *camera;
+} Pane;
+
+struct SporePanes {
+  int width, height; /* of a pane */
+  SporeOffscreen *offscreen;
+  GPtrArray *row; /* of Pane */
+  guint8 *pixels; /* of all panes */
+};
+
+static void free_pane(gpointer data) {
+  Pane *pane = data;
+  if (pane->stage) spore_stage_free(pane->stage);
+  spore_renderer_free(pane->renderer);
+  g_free(pane->camera);
+  g_free(pane);
+}
+
+SporePanes *spore_panes_new(int width, int height, GError **error) {
+  SporeOffscreen *offscreen = spore_offscreen_new(error);
+  if (!offscreen) return NULL;
+  SporePanes *panes = g_new0(SporePanes, 1);
+  panes->width = width, panes->height = height;
+  panes->offscreen = offscreen;
+  panes->row = g_ptr_array_new_with_free_func(free_pane);
+  return panes;
+}
+
+void spore_panes_free(SporePanes *panes) {
+  if (!panes) return;
+  g_ptr_array_unref(panes->row);
+  spore_offscreen_free(panes->offscreen);
+  g_free(panes->pixels);
+  g_free(panes);
+}
+
+static gboolean find_camera(const SporePanes *panes, const Pane *pane, SporeCamera *camera, GError **error) {
+  return spore_stage_camera(pane->stage, pane->camera, (double)panes->width / panes->height, camera, error);
+}
+
+gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimulation *simulation, const char *camera,
+                         const SporeStageOptions *shown, GError **error) {
+  SporeRenderer *renderer = spore_renderer_new(panes->offscreen, error);
+  if (!renderer) return FALSE;
+  Pane *pane = g_new0(Pane, 1);
+  g_ptr_array_add(panes->row, pane);
+  pane->simulation = simulation;
+  pane->renderer = renderer;
+  pane->camera = g_strdup(camera);
+  pane->stage = spore_stage_new(renderer, document);
+  spore_stage_set_options(pane->stage, shown);
+  spore_stage_rebuild(pane->stage, simulation);
+  panes->pixels = g_realloc(panes->pixels, (gsize)spore_panes_width(panes) * (gsize)panes->height * 4);
+  SporeCamera found;
+  return find_camera(panes, pane, &found, error);
+}
+
+int spore_panes_width(const SporePanes *panes) { return panes->width * (int)panes->row->len; }
+int spore_panes_height(const SporePanes *panes) { return panes->height; }
+const char *spore_panes_renderer(const SporePanes *panes) { return spore_offscreen_renderer(panes->offscreen); }
+
+const guint8 *spore_panes_draw(SporePanes *panes, GError **error) {
+  const SporeRenderOptions how = {.width = panes->width, .height = panes->height, .antialias = TRUE};
+  gsize stride = (gsize)spore_panes_width(panes) * 4;
+  for (guint i = 0; i < panes->row->len; i++) {
+    Pane *pane = panes->row->pdata[i];
+    SporeCamera camera;
+    spore_stage_update(pane->stage, spore_world_snapshot_acquire(pane->simulation->world));
+    if (!find_camera(panes, pane, &camera, error) ||
+        !spore_renderer_draw(pane->renderer, &camera, &how, panes->pixels + i * (gsize)panes->width * 4, stride, error))
+      return NULL;
+  }
+  return panes->pixels;
+}

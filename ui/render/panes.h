@@ -1,0 +1,24 @@
+/* Pictures of simulations without a window: one of them, or several side by side. */
+#ifndef SPORE_UI_RENDER_PANES_H
+#define SPORE_UI_RENDER_PANES_H
+
+#include "ui/render/stage.h"
+
+typedef struct SporePanes SporePanes;
+
+/* width, height: pixels of each simulation's picture. NULL with a GError: there is no graphics. Used on the thread that
+ * made it alone. */
+SporePanes *spore_panes_new(int width, int height, GError **error);
+void spore_panes_free(SporePanes *panes); /* NULL is allowed */
+/* Adds a simulation at the right of those that are there; document and simulation are borrowed. camera: of the scene,
+ * by name; NULL: see spore_stage_camera. FALSE with a GError: no such camera. */
+gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimulation *simulation, const char *camera,
+                         const SporeStageOptions *shown, GError **error);
+int spore_panes_width(const SporePanes *panes); /* of the whole picture */
+int spore_panes_height(const SporePanes *panes);
+const char *spore_panes_renderer(const SporePanes *panes); /* GL_RENDERER */
+/* The simulations as they are now: rows of 4 * width bytes, as spore_renderer_draw gives them. Valid until the next
+ * call; NULL with a GError. */
+const guint8 *spore_panes_draw(SporePanes *panes, GError **error);
+
+#endif
