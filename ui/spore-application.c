@@ -6,7 +6,7 @@
 #include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
-#include "ui/sim/session-work.h"
+#include "ui/jobs/under-way.h"
 #include "ui/spore-window.h"
 
 struct _SporeApplication {
@@ -124,7 +124,7 @@ static void spore_application_open(GApplication *application, GFile **files, int
 /* Works that were cancelled end before the program does. */
 static void spore_application_shutdown(GApplication *application) {
   G_APPLICATION_CLASS(spore_application_parent_class)->shutdown(application);
-  spore_session_works_wait();
+  spore_works_wait();
 }
 
 static void spore_application_finalize(GObject *object) {

@@ -117,6 +117,13 @@ static char *with_extension(char *file, const char *extension) {
   return longer;
 }
 
+char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,
+                                  const char *proposed) {
+  g_autofree char *pattern = g_strconcat("*", extension, NULL);
+  return with_extension(choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, title, _("_Save"), pattern, kind, proposed),
+                        extension);
+}
+
 /* Saving. */
 
 static gboolean save_to(SporeWindow *self, const char *file) {
@@ -131,9 +138,7 @@ static gboolean save_as(SporeWindow *self) {
   g_autofree char *title = spore_editor_document_get_title(self->document);
   if (spore_bundle_is_name(title)) title[strlen(title) - 1] = '\0'; /* .spore */
   g_autofree char *proposed = with_extension(g_strdup(title), ".spore");
-  g_autofree char *file = with_extension(choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save scene"), _("_Save"),
-                                                     "*.spore", _("SPORE scenes"), proposed),
-                                         ".spore");
+  g_autofree char *file = spore_window_choose_to_save(self, _("Save scene"), ".spore", _("SPORE scenes"), proposed);
   return file && save_to(self, file);
 }
 
@@ -262,9 +267,8 @@ static void act_save_recording(GSimpleAction *action, GVariant *parameter, gpoin
 }
 
 static void act_save_recording_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save recorded input"),
-                                                     _("_Save"), "*.track", _("Recorded input"), "recording.track"),
-                                         ".track");
+  g_autofree char *file =
+      spore_window_choose_to_save(data, _("Save recorded input"), ".track", _("Recorded input"), "recording.track");
   if (file) save_recording(data, file);
 }
 
@@ -287,16 +291,12 @@ static void act_save_plot(GSimpleAction *action, GVariant *parameter, gpointer d
 }
 
 static void act_save_numbers_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save numbers"), _("_Save"),
-                                                     "*.csv", _("Tables (CSV)"), "run.csv"),
-                                         ".csv");
+  g_autofree char *file = spore_window_choose_to_save(data, _("Save numbers"), ".csv", _("Tables (CSV)"), "run.csv");
   if (file) save_numbers(data, file);
 }
 
 static void act_save_plot_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save plot"), _("_Save"),
-                                                     "*.svg", _("Pictures (SVG)"), "plot.svg"),
-                                         ".svg");
+  g_autofree char *file = spore_window_choose_to_save(data, _("Save plot"), ".svg", _("Pictures (SVG)"), "plot.svg");
   if (file) save_numbers(data, file);
 }
 
@@ -313,9 +313,7 @@ static void act_save_plan(GSimpleAction *action, GVariant *parameter, gpointer d
 }
 
 static void act_save_plan_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save the plan"), _("_Save"),
-                                                     "*.csv", _("Tables (CSV)"), "plan.csv"),
-                                         ".csv");
+  g_autofree char *file = spore_window_choose_to_save(data, _("Save the plan"), ".csv", _("Tables (CSV)"), "plan.csv");
   if (file) save_plan(data, file);
 }
 
@@ -339,9 +337,8 @@ static char *choose_report(SporeWindow *self, const char *title, const char *nam
                                          {".svg", N_("Pictures (SVG)")}};
   for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
     if (!g_str_equal(suffix, kinds[i][0])) continue;
-    g_autofree char *pattern = g_strconcat("*", suffix, NULL), *proposed = g_strconcat(name, suffix, NULL);
-    return with_extension(
-        choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, title, _("_Save"), pattern, _(kinds[i][1]), proposed), suffix);
+    g_autofree char *proposed = g_strconcat(name, suffix, NULL);
+    return spore_window_choose_to_save(self, title, suffix, _(kinds[i][1]), proposed);
   }
   return NULL;
 }

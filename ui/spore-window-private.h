@@ -129,6 +129,13 @@ void spore_window_release_document(SporeWindow *self);
 gboolean spore_window_may_leave(SporeWindow *self);
 /* Opens what a dead owner left. */
 void spore_window_recover(SporeWindow *self);
+/* Asks for the name of a file to write. title, kind: translated; extension: added where it is missing; proposed: the
+ * name to begin with. g_free; NULL: the user went back. */
+char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,
+                                  const char *proposed);
+
+/* spore-window-film.c: films of runs. */
+void spore_window_add_film_actions(SporeWindow *self);
 
 /* spore-window-mesh.c: importing meshes, and operations on them. */
 void spore_window_add_mesh_actions(SporeWindow *self);

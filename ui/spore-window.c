@@ -206,6 +206,7 @@ static void spore_window_init(SporeWindow *self) {
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_window_add_file_actions(self);
+  spore_window_add_film_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
   spore_window_add_body_actions(self);

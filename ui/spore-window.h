@@ -5,8 +5,8 @@
  *
  *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
  *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
- *               save-recording-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
- *               save-plot-dialog, close
+ *               save-recording-dialog, save-film [s path], save-film-dialog, save-numbers [s path],
+ *               save-numbers-dialog, save-plot [s path], save-plot-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
  *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),

@@ -6,7 +6,7 @@
 #include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
-#include "ui/sim/session-work.h"
+#include "ui/jobs/under-way.h"
 #include "ui/sim/spore-player.h"
 
 /* A stone that falls. */
@@ -78,7 +78,7 @@ static void tear_down(Fixture *fixture, gconstpointer scene) {
   spore_player_close(fixture->player);
   g_clear_object(&fixture->player);
   g_object_unref(fixture->editor);
-  spore_session_works_wait();
+  spore_works_wait();
   spore_schema_free(fixture->schema);
 }
 
@@ -203,7 +203,7 @@ static void test_cancel(Fixture *fixture, gconstpointer scene) {
   g_assert_false(spore_player_is_making(fixture->player));
   g_assert_false(spore_player_is_playing(fixture->player));
   g_assert_null(spore_player_get_job(fixture->player));
-  spore_session_works_wait();
+  spore_works_wait();
   g_assert_null(spore_player_get_session(fixture->player));
   g_assert_cmpuint(fixture->failed, ==, 0);
 }

@@ -15,6 +15,7 @@ import xml.etree.ElementTree
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "e2e")]
 import editor as ui
+import picture_files
 import shapes
 from tap import Skip, check, main
 
@@ -1204,6 +1205,41 @@ def mouse_takes_an_instrument_from_its_track():
     pressed = [int(sample[9]) & 1 for sample in samples]
     assert 1 in pressed and pressed[-1] == 0, "the right button presses and lets go"
     assert samples[0][4:8] != samples[-1][4:8], "Shift and a drag turn"
+
+
+@check
+def a_run_becomes_a_film():
+    """what was played is filmed while the window goes on; Cancel and a name of another kind leave no film."""
+    if "video" not in FEATURES:
+        raise Skip("built without libvpx")
+    film, never = folder("film") / "run.webm", folder("film") / "never.webm"
+    with start(SCENES / "minimal.spore") as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        assert not editor.enabled("save-film")
+        editor.act("speed", "s", "0.1")  # a short film takes less to draw
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.05, "time to advance")
+        editor.act("pause")
+        editor.act("speed", "s", "1")
+        end_s = editor.time_s()
+        editor.press(editor.find("toggle button", "^Menu$"))
+        editor.find(".*", "^Save a film of this run…$")
+        editor.keys("Escape")
+        editor.act("save-film", "s", str(film.with_suffix(".avi")))
+        ui.wait(lambda: "F.webm" in (editor.message() or ""), "the refusal of another kind of file")
+        editor.act("save-film", "s", str(film))
+        editor.find("label", "^Filming", seconds=60)
+        editor.act("select", "s", "bodies/ball")  # the window goes on
+        ui.wait(film.exists, "the film", 120)
+        told = picture_files.Film(film)
+        assert told.size == (1280, 720) and len(told.times) in {round((end_s + d) * 30) for d in (-0.006, 0, 0.006)}, (told.times, end_s)
+        assert editor.time_s() == end_s
+        editor.act("speed", "s", "0.1")
+        editor.act("save-film", "s", str(never))
+        editor.find("label", "^Filming: ")
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("save-film"), "the end of the job")
+    assert os.listdir(folder("film")) == ["run.webm"], os.listdir(folder("film"))
 
 
 @check

@@ -1,27 +1,14 @@
-/* Makes and frees sessions on threads of their own, and counts them, so that the program can end without any. */
+/* Makes and frees sessions on threads of their own. */
 #include "ui/sim/session-work.h"
+
+#include "ui/jobs/under-way.h"
 
 #define MOST_THREADS 8
 
-/* Sessions that are being made or freed, and results that nobody has taken yet; atomic. */
-static int under_way;
-
-static void begin(void) { g_atomic_int_inc(&under_way); }
-
-static void end(void) {
-  g_atomic_int_add(&under_way, -1);
-  g_main_context_wakeup(NULL);
-}
-
-void spore_session_works_wait(void) {
-  while (g_atomic_int_get(&under_way) > 0) g_main_context_iteration(NULL, TRUE);
-}
-
-/* Counted from here on, and not from when a thread is found for the work. */
 SporeSessionWork *spore_session_work_new(const SporeDocument *document) {
   SporeSessionWork *work = g_new0(SporeSessionWork, 1);
   work->document = spore_document_copy(document);
-  begin();
+  spore_work_begin();
   return work;
 }
 
@@ -41,17 +28,17 @@ void spore_session_work_free(gpointer data) {
   spore_session_free(work->session);
   spore_document_free(work->document);
   g_free(work);
-  end();
+  spore_work_end();
 }
 
 static gpointer free_session(gpointer session) {
   spore_session_free(session);
-  end();
+  spore_work_end();
   return NULL;
 }
 
 void spore_session_retire(SporeSession *session) {
-  begin();
+  spore_work_begin();
   GThread *thread = g_thread_try_new("end of a run", free_session, session, NULL);
   if (thread) g_thread_unref(thread);
   else free_session(session);

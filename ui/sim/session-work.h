@@ -1,5 +1,5 @@
 /* What may take long in the life of a session, apart from the GTK thread: its making, as data for a SporeJob, and its
- * end. No GTK. */
+ * end. Both count as under way (ui/jobs/under-way.h). No GTK. */
 #ifndef SPORE_UI_SIM_SESSION_WORK_H
 #define SPORE_UI_SIM_SESSION_WORK_H
 
@@ -16,8 +16,5 @@ gboolean spore_session_work_run(gpointer work, const SporeProgress *progress, GE
 void spore_session_work_free(gpointer work);
 /* Takes the session and frees it on a thread of its own, since a step under way has to end first. */
 void spore_session_retire(SporeSession *session);
-/* Serves the main loop until no session is being made or freed any more. Called where the program ends, when all making
- * was cancelled; on the GTK thread. */
-void spore_session_works_wait(void);
 
 #endif
