@@ -1,6 +1,7 @@
-/* Films: of the run so far. */
+/* Films: of the run so far, of an attempt at the exercise, of two attempts side by side. */
 #include <glib/gi18n.h>
 
+#include "ui/document/attempts.h"
 #include "ui/jobs/film-work.h"
 #include "ui/spore-window-private.h"
 
@@ -20,6 +21,10 @@ static void filmed(SporeJob *job, gpointer data, const GError *error, gpointer o
                      work->filmed.length_s);
 }
 
+static void film(SporeWindow *self, SporeFilmWork *work) {
+  spore_window_start_job(self, _("Filming"), spore_film_work_run, work, spore_film_work_free, filmed);
+}
+
 static void film_run(SporeWindow *self, const char *file) {
   SporeSession *session = spore_player_get_session(self->player);
   double end_s = session ? spore_session_snapshot(session)->time_s : 0;
@@ -27,9 +32,38 @@ static void film_run(SporeWindow *self, const char *file) {
     spore_window_complain(self, _("Nothing has run yet; play the scene first (F5), then film what was played"));
     return;
   }
-  SporeFilmWork *work = spore_film_work_new(spore_editor_document_get(self->document), file,
-                                            spore_session_recording(session), NULL, end_s, chosen_speed(self));
-  spore_window_start_job(self, _("Filming"), spore_film_work_run, work, spore_film_work_free, filmed);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeFilmWork *work = spore_film_work_new(document, file, end_s, chosen_speed(self));
+  spore_film_work_add(work, spore_session_recording(session), NULL);
+  film(self, work);
+}
+
+static const SporeAttempt *find_attempt(const GArray *attempts, gint64 when) {
+  for (guint i = 0; i < attempts->len; i++)
+    if (g_array_index(attempts, SporeAttempt, i).when == when) return &g_array_index(attempts, SporeAttempt, i);
+  return NULL;
+}
+
+/* whens: of gint64, when each attempt ended. */
+static void film_attempts(SporeWindow *self, const char *file, GVariant *whens) {
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  g_autoptr(GArray) attempts = spore_attempts_read(scene);
+  SporeFilmWork *work = spore_film_work_new(spore_editor_document_get(self->document), file, 0, chosen_speed(self));
+  GVariantIter iter;
+  gint64 when;
+  g_variant_iter_init(&iter, whens);
+  while (work->count < SPORE_FILMING_MOST && g_variant_iter_next(&iter, "x", &when)) {
+    const SporeAttempt *attempt = find_attempt(attempts, when);
+    if (!attempt) continue;
+    spore_film_work_add(work, NULL, spore_attempts_track_file(scene, attempt));
+    work->end_s = MAX(work->end_s, attempt->time_s); /* the exercise's clock began with the run */
+  }
+  if (work->count > 0) {
+    film(self, work);
+    return;
+  }
+  spore_film_work_free(work);
+  spore_window_complain(self, _("The scene has no such attempt; tick one in the list of attempts, or two"));
 }
 
 static void act_save_film(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -42,10 +76,26 @@ static void act_save_film_dialog(GSimpleAction *action, GVariant *parameter, gpo
   if (file) film_run(data, file);
 }
 
+static void act_film_attempts(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *file;
+  g_autoptr(GVariant) whens = NULL;
+  g_variant_get(parameter, "(&s@ax)", &file, &whens);
+  film_attempts(data, file, whens);
+}
+
+static void act_film_attempts_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *title = g_variant_n_children(parameter) > 1 ? _("Save a film of two attempts side by side")
+                                                          : _("Save a film of the attempt");
+  g_autofree char *file = spore_window_choose_to_save(data, title, ".webm", _("Films (WebM)"), "attempt.webm");
+  if (file) film_attempts(data, file, parameter);
+}
+
 void spore_window_add_film_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"save-film", act_save_film, "s"},
       {"save-film-dialog", act_save_film_dialog},
+      {"film-attempts", act_film_attempts, "(sax)"},
+      {"film-attempts-dialog", act_film_attempts_dialog, "ax"},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

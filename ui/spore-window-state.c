@@ -274,6 +274,8 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "save-recording-dialog", session);
   set_enabled(self, "save-film", session && idle);
   set_enabled(self, "save-film-dialog", session && idle);
+  set_enabled(self, "film-attempts", idle);
+  set_enabled(self, "film-attempts-dialog", idle);
   set_enabled(self, "save-numbers", session);
   set_enabled(self, "save-numbers-dialog", session);
   set_enabled(self, "save-plot", session);

@@ -21,6 +21,8 @@
  *               save-plan-dialog
  *   exercise    add-step [s element], aim-step, add-metric [s element], move-part [i -1 or 1], remove-part (the
  *               selected one), set-threshold [s path, s "good" or "pass", s number and unit], skip-to-step,
+ *               film-attempts [s path, ax when they ended, s since 1970: one, or two side by side],
+ *               film-attempts-dialog [ax],
  *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points

@@ -39,6 +39,15 @@ static char *only_file(void) {
   return file;
 }
 
+static void remove_whole(const char *path) {
+  g_autoptr(GDir) entries = g_dir_open(path, 0, NULL);
+  for (const char *name; entries && (name = g_dir_read_name(entries));) {
+    g_autofree char *file = g_build_filename(path, name, NULL);
+    remove_whole(file);
+  }
+  g_remove(path);
+}
+
 static void forget(void) {
   g_autofree char *path = folder();
   g_autoptr(GDir) entries = g_dir_open(path, 0, NULL);
@@ -90,6 +99,42 @@ static void test_no_room(void) {
   g_remove(path);
 }
 
+static guint count_tracks(const char *scene, gint64 first_when, guint attempts) {
+  guint there = 0;
+  for (guint i = 0; i < attempts; i++) {
+    const SporeAttempt attempt = {.when = first_when + i};
+    g_autofree char *file = spore_attempts_track_file(scene, &attempt);
+    there += g_file_test(file, G_FILE_TEST_IS_REGULAR);
+  }
+  return there;
+}
+
+/* What was recorded comes back; of the newest attempts alone; and those of another scene stay. */
+static void test_tracks(void) {
+  enum { MORE = 3, ATTEMPTS = SPORE_ATTEMPTS_WITH_TRACKS + MORE, WHEN = 999999990 }; /* 9 digits, then 10 */
+  const SporeDeviceState state = {.position = {1, 2, 3}, .orientation = {1, 0, 0, 0}};
+  SporeTrack track = {0}, read = {0};
+  g_autoptr(GError) error = NULL;
+  spore_track_append(spore_track_add_channel(&track, "rod"), 0.25, &state);
+  const SporeAttempt other = {.when = 5};
+  g_assert_true(spore_attempts_add_track("/other.spore", &other, &track, &error));
+  for (guint i = 0; i < ATTEMPTS; i++) {
+    const SporeAttempt attempt = {.when = WHEN + i};
+    g_assert_true(spore_attempts_add_track("/scene.spore", &attempt, &track, &error));
+  }
+  g_assert_no_error(error);
+  g_assert_cmpuint(count_tracks("/scene.spore", WHEN, MORE), ==, 0);
+  g_assert_cmpuint(count_tracks("/scene.spore", WHEN, ATTEMPTS), ==, SPORE_ATTEMPTS_WITH_TRACKS);
+  g_autofree char *file = spore_attempts_track_file("/other.spore", &other), *text = NULL;
+  gsize size;
+  SporeError fault = SPORE_ERROR_INIT;
+  g_assert_true(g_file_get_contents(file, &text, &size, NULL));
+  g_assert_true(spore_track_parse(&read, file, text, size, &fault));
+  g_assert_cmpfloat(spore_track_channel(&read, "rod")->states[0].position[2], ==, 3);
+  spore_track_clear(&read);
+  spore_track_clear(&track);
+}
+
 int main(int argc, char **argv) {
   g_autofree char *data = g_dir_make_tmp("spore-attempts-XXXXXX", NULL);
   g_setenv("XDG_DATA_HOME", data, TRUE); /* before GLib reads it */
@@ -97,8 +142,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/attempts/kept", test_kept);
   g_test_add_func("/attempts/damaged", test_damaged);
   g_test_add_func("/attempts/no_room", test_no_room);
+  g_test_add_func("/attempts/tracks", test_tracks);
   int status = g_test_run();
-  g_autofree char *spore = g_build_filename(data, "spore", NULL);
-  g_rmdir(spore), g_rmdir(data);
+  remove_whole(data);
   return status;
 }

@@ -1934,6 +1934,39 @@ def shown(editor, pattern):
     return label.get_name() if label else None
 
 
+def film_attempts(editor, exercise):
+    """Plays the exercise again, ticks both attempts and films them side by side, ten times as fast."""
+    tracks = pathlib.Path(os.environ["XDG_DATA_HOME"]) / "spore" / "attempts"
+    ended = lambda: sorted(int(file.stem) for file in tracks.glob("*/*.track"))
+    ui.wait(ended, "the input of the attempt to be kept")
+    film = lambda: editor.look("push button", "^Film…$", showing=False)
+    enabled = lambda: film().get_state_set().contains(editor.atspi.StateType.SENSITIVE)
+    assert not enabled()
+    editor.act("reset")
+    ui.wait(lambda: time.time() >= ended()[0] + 1, "a second, by which attempts are told apart")
+    editor.act("play")
+    ui.wait(lambda: len(ended()) == 2, "the second attempt to be kept", 120)
+    editor.act("pause")
+    name = f"^Film .*score {exercise['score']:.1f}, "
+    ticks = ui.wait(lambda: (found := [node for node in editor.nodes("check box", showing=False) if re.search(name, node.get_name() or "")])[1:] and found,
+                    "two attempts to tick")
+    for tick in ticks:
+        editor.press(tick)
+    ui.wait(enabled, "Film to be possible")
+    editor.act("speed", "s", "10")
+    both = folder("exercise") / "both.webm"
+    editor.act("film-attempts", "(sax)", (str(both), [1]))
+    ui.wait(lambda: "no such attempt" in (editor.message() or ""), "the refusal of an attempt that is not there")
+    editor.act("film-attempts", "(sax)", (str(both), ended()))
+    if "video" in FEATURES:
+        ui.wait(both.exists, "the film", 120)
+        told = picture_files.Film(both)
+        assert told.size == (2560, 720) and len(told.times) == round(3 * exercise["time_s"]), told.times
+    else:
+        ui.wait(lambda: "libvpx-dev" in (editor.message() or ""), "the refusal of a film")
+    editor.act("speed", "s", "0")
+
+
 @check
 def exercise_from_nothing():
     """an exercise is authored from nothing, played from its track, and scored; the command line gives the same score, and each try-out says that it is one."""
@@ -1996,6 +2029,7 @@ def exercise_from_nothing():
         ui.wait(lambda: "expected .csv, .json or .html" in (editor.message() or ""), "the refusal of another kind of file")
         kept = f"score {exercise['score']:.1f}, {exercise['time_s']:.2f} s, 2 of 2 steps, passed$"
         editor.find("label", kept, showing=False)
+        film_attempts(editor, exercise)
         editor.act("reset")
         ui.wait(lambda: shown(editor, "^Under way: score 0.0, 0 of 2 steps, 0.00 of 30 s"), "a new beginning")
         editor.act("select", "s", "exercise/reached")

@@ -4,11 +4,14 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
+#include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "core/base/memory.h"
 #include "core/base/number.h"
+#include "core/io/scene_xml.h"
 #include "core/scene/error.h"
 
 #define FOLDER_MODE 0700
@@ -24,13 +27,15 @@ SporeAttempt spore_attempt_of(const SporeExerciseState *state) {
                         .passed = state->passed};
 }
 
-/* Two scenes of one name have a file each. g_free. */
-static char *file_of(const char *scene) {
+/* Two scenes of one name have files of their own. g_free. */
+static char *place_of(const char *scene, const char *extension) {
   g_autofree char *path = g_canonicalize_filename(scene, NULL), *name = g_path_get_basename(path);
   g_autofree char *hash = g_compute_checksum_for_string(G_CHECKSUM_SHA256, path, -1);
-  g_autofree char *file = g_strdup_printf("%s-%.16s.csv", name, hash);
+  g_autofree char *file = g_strdup_printf("%s-%.16s%s", name, hash, extension);
   return g_build_filename(g_get_user_data_dir(), "spore", "attempts", file, NULL);
 }
+
+static char *file_of(const char *scene) { return place_of(scene, ".csv"); }
 
 static char *line_of(const SporeAttempt *attempt) {
   g_autoptr(GDateTime) when = g_date_time_new_from_unix_utc(attempt->when);
@@ -93,4 +98,45 @@ gboolean spore_attempts_add(const char *scene, const SporeAttempt *attempt, GErr
   gboolean whole = written == size || fail(file, error);
   close(descriptor);
   return whole;
+}
+
+/* Input. */
+
+char *spore_attempts_track_file(const char *scene, const SporeAttempt *attempt) {
+  g_autofree char *folder = place_of(scene, ""), *name = g_strdup_printf("%lld.track", (long long)attempt->when);
+  return g_build_filename(folder, name, NULL);
+}
+
+static int by_time(gconstpointer one, gconstpointer other) {
+  gint64 a = g_ascii_strtoll(*(const char *const *)one, NULL, 10),
+         b = g_ascii_strtoll(*(const char *const *)other, NULL, 10);
+  return (a > b) - (a < b);
+}
+
+/* Takes away the oldest, so that one more has room. */
+static void make_room(const char *folder) {
+  g_autoptr(GDir) entries = g_dir_open(folder, 0, NULL);
+  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+  for (const char *name; entries && (name = g_dir_read_name(entries));)
+    if (g_str_has_suffix(name, ".track")) g_ptr_array_add(names, g_strdup(name));
+  g_ptr_array_sort(names, by_time);
+  for (guint i = 0; i + SPORE_ATTEMPTS_WITH_TRACKS <= names->len; i++) {
+    g_autofree char *file = g_build_filename(folder, names->pdata[i], NULL);
+    g_unlink(file);
+  }
+}
+
+gboolean spore_attempts_add_track(const char *scene, const SporeAttempt *attempt, const SporeTrack *input,
+                                  GError **error) {
+  g_autofree char *file = spore_attempts_track_file(scene, attempt), *folder = g_path_get_dirname(file);
+  gsize size;
+  if (g_mkdir_with_parents(folder, FOLDER_MODE) != 0) return fail(folder, error);
+  char *text = spore_track_format(input, &size);
+  if (!text)
+    return spore_error_raise(error, SPORE_ERROR_MEMORY, file, "%s",
+                             _("not enough memory for the recorded input; close something or shorten it"));
+  make_room(folder);
+  gboolean written = spore_write_file(file, text, size, error);
+  spore_free(text);
+  return written;
 }

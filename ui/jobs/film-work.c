@@ -1,21 +1,27 @@
 /* Repeats a run from what moved it, and films it. */
 #include "ui/jobs/film-work.h"
 
+#include <glib/gi18n.h>
+
 #include "ui/jobs/under-way.h"
 
 #define WIDTH 1280 /* of each run's picture, pixels */
 #define HEIGHT 720
 #define FPS 30
 
-SporeFilmWork *spore_film_work_new(const SporeDocument *document, const char *file, SporeTrack *input,
-                                   SporeTrack *beside, double end_s, double speed) {
+SporeFilmWork *spore_film_work_new(const SporeDocument *document, const char *file, double end_s, double speed) {
   SporeFilmWork *work = g_new0(SporeFilmWork, 1);
   spore_work_begin();
   work->document = spore_document_copy(document);
   work->file = g_strdup(file);
-  work->input = input, work->beside = beside;
   work->end_s = end_s, work->speed = speed;
   return work;
+}
+
+void spore_film_work_add(SporeFilmWork *work, SporeTrack *input, char *input_file) {
+  g_return_if_fail(work->count < SPORE_FILMING_MOST);
+  work->inputs[work->count] = input;
+  work->input_files[work->count++] = input_file;
 }
 
 /* The last word of the progress: to ask whether to go on is to repeat it. */
@@ -35,12 +41,38 @@ static bool is_cancelled(void *data) {
   return !spore_progress(told->progress, told->fraction, NULL);
 }
 
+static gboolean read_input(SporeFilmWork *work, guint run, GError **error) {
+  const char *file = work->input_files[run];
+  g_autofree char *text = NULL;
+  gsize size;
+  g_autoptr(GError) cause = NULL;
+  if (!file) return TRUE;
+  if (!g_file_get_contents(file, &text, &size, &cause))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("the input of the attempt cannot be read: %s"),
+                             cause->message);
+  SporeError fault = SPORE_ERROR_INIT;
+  work->inputs[run] = g_new0(SporeTrack, 1);
+  return spore_track_parse(work->inputs[run], file, text, size, &fault) || spore_error_propagate(&fault, error);
+}
+
+/* Prepares the runs. *filming has those that were prepared, whatever happens. */
+static gboolean prepare(SporeFilmWork *work, SporeFilming *filming, GError **error) {
+  for (guint run = 0; run < work->count; run++) {
+    if (!read_input(work, run, error)) return FALSE;
+    SporeSimulation *simulation = spore_simulation_new(work->document, NULL, work->inputs[run], filming->cancel, error);
+    if (!simulation) return FALSE;
+    filming->documents[run] = work->document;
+    filming->simulations[run] = simulation;
+    filming->count++;
+  }
+  return TRUE;
+}
+
 gboolean spore_film_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeFilmWork *work = data;
   Told told = {progress, 0};
   const SporeProgress telling = {.report = tell, .data = &told};
   const SporeCancel cancel = {is_cancelled, &told};
-  const SporeTrack *const inputs[SPORE_FILMING_MOST] = {work->input, work->beside};
   SporeFilming filming = {.file = work->file,
                           .width = WIDTH,
                           .height = HEIGHT,
@@ -49,28 +81,19 @@ gboolean spore_film_work_run(gpointer data, const SporeProgress *progress, GErro
                           .speed = work->speed,
                           .shown = {.surfaces = TRUE},
                           .cancel = &cancel};
-  gboolean made = TRUE;
-  for (guint runs = work->beside ? 2 : 1; made && filming.count < runs; filming.count += made) {
-    filming.documents[filming.count] = work->document;
-    filming.simulations[filming.count] =
-        spore_simulation_new(work->document, NULL, inputs[filming.count], &cancel, error);
-    made = filming.simulations[filming.count] != NULL;
-  }
-  gboolean done = made && spore_filming_run(&filming, &telling, &work->filmed, error);
+  gboolean done = prepare(work, &filming, error) && spore_filming_run(&filming, &telling, &work->filmed, error);
   for (guint i = 0; i < filming.count; i++) spore_simulation_free(filming.simulations[i]);
   return done;
-}
-
-static void free_track(SporeTrack *track) {
-  if (track) spore_track_clear(track);
-  g_free(track);
 }
 
 void spore_film_work_free(gpointer data) {
   SporeFilmWork *work = data;
   spore_document_free(work->document);
-  free_track(work->input);
-  free_track(work->beside);
+  for (guint i = 0; i < work->count; i++) {
+    if (work->inputs[i]) spore_track_clear(work->inputs[i]);
+    g_free(work->inputs[i]);
+    g_free(work->input_files[i]);
+  }
   g_free(work->filmed.gl_renderer);
   g_free(work->file);
   g_free(work);

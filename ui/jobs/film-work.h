@@ -7,17 +7,19 @@
 #include "ui/render/filming.h"
 
 typedef struct SporeFilmWork {
-  SporeDocument *document; /* a copy of the scene, the worker's own */
-  char *file;              /* as spore_reel_kind */
-  SporeTrack *input;       /* recorded, owned; NULL: that of the scene */
-  SporeTrack *beside;      /* of a second run, shown at its right, owned; NULL: there is one run */
-  double end_s, speed;     /* as SporeFilming has them */
-  SporeFilmed filmed;      /* out */
+  SporeDocument *document;                /* a copy of the scene, the worker's own */
+  char *file;                             /* as spore_reel_kind */
+  guint count;                            /* of runs, side by side */
+  SporeTrack *inputs[SPORE_FILMING_MOST]; /* what moved each, owned; NULL: read from the file */
+  char *input_files[SPORE_FILMING_MOST];  /* NULL: none, the input is there */
+  double end_s, speed;                    /* as SporeFilming has them */
+  SporeFilmed filmed;                     /* out */
 } SporeFilmWork;
 
-/* Takes the tracks. */
-SporeFilmWork *spore_film_work_new(const SporeDocument *document, const char *file, SporeTrack *input,
-                                   SporeTrack *beside, double end_s, double speed);
+/* No run yet. */
+SporeFilmWork *spore_film_work_new(const SporeDocument *document, const char *file, double end_s, double speed);
+/* Adds a run, of this input or of that in the file; takes either. */
+void spore_film_work_add(SporeFilmWork *work, SporeTrack *input, char *input_file);
 gboolean spore_film_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_film_work_free(gpointer work);
 

@@ -5,7 +5,38 @@
 
 #include "ui/document/attempts.h"
 
-#define MOST_ROWS 20
+/* The buttons that tick attempts, and the one that films those. */
+typedef struct Choice {
+  GtkWidget *film;
+  GPtrArray *ticks; /* of GtkToggleButton, borrowed */
+  GArray *whens;    /* of gint64, by ticks */
+} Choice;
+
+static void free_choice(gpointer data) {
+  Choice *choice = data;
+  g_ptr_array_unref(choice->ticks);
+  g_array_unref(choice->whens);
+  g_free(choice);
+}
+
+/* One attempt is filmed, or two side by side, the older at the left. */
+static void update_film(Choice *choice) {
+  GVariantBuilder whens;
+  g_variant_builder_init(&whens, G_VARIANT_TYPE("ax"));
+  guint count = 0;
+  for (guint i = choice->ticks->len; i > 0; i--) {
+    if (!gtk_toggle_button_get_active(choice->ticks->pdata[i - 1])) continue;
+    g_variant_builder_add(&whens, "x", g_array_index(choice->whens, gint64, i - 1));
+    count++;
+  }
+  GVariant *target = g_variant_ref_sink(g_variant_builder_end(&whens));
+  gboolean can = count == 1 || count == 2;
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(choice->film), NULL);
+  gtk_actionable_set_action_target_value(GTK_ACTIONABLE(choice->film), target);
+  if (can) gtk_actionable_set_action_name(GTK_ACTIONABLE(choice->film), "win.film-attempts-dialog");
+  else gtk_widget_set_sensitive(choice->film, FALSE);
+  g_variant_unref(target);
+}
 
 static void add_label(GtkBox *box, const char *text, const char *class) {
   GtkWidget *label = gtk_label_new(text);
@@ -16,23 +47,63 @@ static void add_label(GtkBox *box, const char *text, const char *class) {
   gtk_container_add(GTK_CONTAINER(box), label);
 }
 
-static void add_attempt(GtkBox *box, const SporeAttempt *attempt) {
+/* g_free. */
+static char *describe(const SporeAttempt *attempt) {
   g_autoptr(GDateTime) when = g_date_time_new_from_unix_local(attempt->when);
   g_autofree char *date = g_date_time_format(when, "%x %H:%M");
-  g_autofree char *text =
-      g_strdup_printf(_("%s: score %.1f, %.2f s, %llu of %llu steps, %s"), date, attempt->score, attempt->time_s,
-                      (unsigned long long)attempt->steps_done, (unsigned long long)attempt->steps,
-                      attempt->passed ? _("passed") : _("not passed"));
-  add_label(box, text, NULL);
+  return g_strdup_printf(_("%s: score %.1f, %.2f s, %llu of %llu steps, %s"), date, attempt->score, attempt->time_s,
+                         (unsigned long long)attempt->steps_done, (unsigned long long)attempt->steps,
+                         attempt->passed ? _("passed") : _("not passed"));
 }
 
-void spore_fill_attempt_list(GtkBox *box, const GArray *attempts) {
+static gboolean has_track(const char *scene, const SporeAttempt *attempt) {
+  g_autofree char *file = scene ? spore_attempts_track_file(scene, attempt) : NULL;
+  return file && g_file_test(file, G_FILE_TEST_IS_REGULAR);
+}
+
+static void add_tick(GtkBox *row, Choice *choice, const SporeAttempt *attempt, const char *text) {
+  GtkWidget *tick = gtk_check_button_new();
+  g_autofree char *name = g_strdup_printf(_("Film %s"), text);
+  atk_object_set_name(gtk_widget_get_accessible(tick), name);
+  gtk_widget_set_tooltip_text(tick, _("To film this attempt, or two side by side"));
+  g_signal_connect_swapped(tick, "toggled", G_CALLBACK(update_film), choice);
+  g_ptr_array_add(choice->ticks, tick);
+  g_array_append_val(choice->whens, attempt->when);
+  gtk_container_add(GTK_CONTAINER(row), tick);
+}
+
+static void add_attempt(GtkBox *box, const char *scene, const SporeAttempt *attempt, Choice *choice) {
+  g_autofree char *text = describe(attempt);
+  GtkBox *row = GTK_BOX(gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6));
+  if (has_track(scene, attempt)) add_tick(row, choice, attempt, text);
+  add_label(row, text, NULL);
+  gtk_container_add(GTK_CONTAINER(box), GTK_WIDGET(row));
+}
+
+static Choice *new_choice(void) {
+  Choice *choice = g_new0(Choice, 1);
+  choice->ticks = g_ptr_array_new();
+  choice->whens = g_array_new(FALSE, FALSE, sizeof(gint64));
+  choice->film = gtk_button_new_with_label(_("Film…"));
+  gtk_widget_set_halign(choice->film, GTK_ALIGN_START);
+  gtk_widget_set_tooltip_text(choice->film,
+                              _("Tick one attempt, or two to see them side by side: they are repeated in the scene as "
+                                "it is now, and filmed as fast as runs are played"));
+  return choice;
+}
+
+void spore_fill_attempt_list(GtkBox *box, const char *scene, const GArray *attempts) {
   gtk_container_foreach(GTK_CONTAINER(box), (GtkCallback)(void (*)(void))gtk_widget_destroy, NULL);
+  Choice *choice = new_choice();
   if (attempts->len > 0) add_label(box, _("Attempts"), "heading");
-  for (guint i = 0; i < MIN(attempts->len, MOST_ROWS); i++)
-    add_attempt(box, &g_array_index(attempts, SporeAttempt, attempts->len - 1 - i));
+  for (guint i = 0; i < MIN(attempts->len, SPORE_ATTEMPTS_WITH_TRACKS); i++)
+    add_attempt(box, scene, &g_array_index(attempts, SporeAttempt, attempts->len - 1 - i), choice);
+  gtk_container_add(GTK_CONTAINER(box), choice->film);
   gtk_widget_set_tooltip_text(
       GTK_WIDGET(box), _("Runs that ended, newest first, scored by the exercise as it was then; try-outs are not "
                          "among them"));
   gtk_widget_show_all(GTK_WIDGET(box));
+  gtk_widget_set_visible(choice->film, choice->ticks->len > 0);
+  update_film(choice);
+  g_object_set_data_full(G_OBJECT(choice->film), "choice", choice, free_choice);
 }

@@ -9,6 +9,7 @@
 #include "core/exercise/event.h"
 #include "core/io/scene_xml.h"
 #include "ui/document/attempts.h"
+#include "ui/jobs/track-work.h"
 #include "ui/panels/attempt-list.h"
 #include "ui/panels/exercise-rows.h"
 #include "ui/panels/report.h"
@@ -138,6 +139,27 @@ static void show_run(SporeExercisePanel *self) {
   }
 }
 
+static void show_attempts(SporeExercisePanel *self) {
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  spore_fill_attempt_list(GTK_BOX(self->attempt_list), scene, self->attempts);
+}
+
+static void kept_track(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeExercisePanel *self = owner;
+  if (error) spore_report(GTK_WIDGET(self), error);
+  else if (self->document) show_attempts(self);
+}
+
+/* The run that the attempt ended in is still there, unless the user went back to the start at once. */
+static void keep_track(SporeExercisePanel *self, SporeSession *session, const char *scene,
+                       const SporeAttempt *attempt) {
+  g_auto(Look) look = {0};
+  if (!spore_session_read_exercise(session, take_look, &look) || look.state.time_s != attempt->time_s) return;
+  SporeTrackWork *work = spore_track_work_new(scene, attempt, spore_session_recording(session));
+  g_autoptr(SporeJob) job = spore_job_start(_("Keeping the attempt"), spore_track_work_run, work, spore_track_work_free,
+                                            kept_track, G_OBJECT(self));
+}
+
 /* Keeps an attempt that has ended, whether the panel is seen or not. */
 static void keep_attempt(SporeExercisePanel *self) {
   SporeSession *session = session_of(self);
@@ -147,8 +169,10 @@ static void keep_attempt(SporeExercisePanel *self) {
   SporeAttempt attempt = spore_attempt_of(&state);
   const char *file = spore_editor_document_get_save_file(self->document);
   g_array_append_val(self->attempts, attempt);
-  spore_fill_attempt_list(GTK_BOX(self->attempt_list), self->attempts);
-  if (file && !spore_attempts_add(file, &attempt, &error)) spore_report(GTK_WIDGET(self), error);
+  show_attempts(self);
+  if (!file) return;
+  if (spore_attempts_add(file, &attempt, &error)) keep_track(self, session, file, &attempt);
+  else spore_report(GTK_WIDGET(self), error);
 }
 
 static gboolean tick(gpointer data) {
@@ -283,7 +307,7 @@ void spore_exercise_panel_set_document(SporeExercisePanel *self, SporeEditorDocu
   g_signal_connect_object(player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
   g_clear_pointer(&self->attempts, g_array_unref);
   self->attempts = spore_attempts_read(spore_editor_document_get_save_file(document));
-  spore_fill_attempt_list(GTK_BOX(self->attempt_list), self->attempts);
+  show_attempts(self);
   remove_rows(self->steps); /* ids are of a document */
   remove_rows(self->metrics);
   build_settings(self);
