@@ -2,7 +2,6 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
-#include "core/author/instrument_edits.h"
 #include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
 
@@ -94,20 +93,6 @@ static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpoint
   g_autoptr(GError) error = NULL;
   if (!spore_edit_remove_region(document_of(self), g_variant_get_string(parameter, NULL), &error))
     spore_window_failed(self, error);
-}
-
-static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  g_autoptr(GError) error = NULL;
-  SporeObject *probe = spore_edit_add_instrument(document_of(self), spore_instrument_find("probe"), NULL,
-                                                 (SporeInstrumentPlaces){0}, &error);
-  if (!probe) {
-    spore_window_failed(self, error);
-    return;
-  }
-  spore_editor_document_select(self->document, spore_object_id(probe));
-  g_action_group_activate_action(G_ACTION_GROUP(self), "tool", g_variant_new_string("probe"));
-  spore_viewport_frame_soon(SPORE_VIEWPORT(self->viewport));
 }
 
 /* Simulation. */
@@ -284,7 +269,6 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"add-region", act_add_region, "s"},
       {"place-region", act_place_region, "s"},
       {"remove-region", act_remove_region, "s"},
-      {"add-probe", act_add_probe},
       {"play", act_play},
       {"pause", act_pause},
       {"play-pause", act_play_pause},

@@ -10,6 +10,7 @@ static const SporePickKind step_pick = {
     .doc = spore_step_end_doc,
     .add = spore_edit_add_step,
     .tie = spore_edit_aim_step,
+    .first = N_("%s, click %u of %u: %s Escape ends"),
     .later = N_("%s, click %u of %u: %s Escape goes back"),
 };
 
@@ -29,14 +30,17 @@ static void act_add_step(GSimpleAction *action, GVariant *parameter, gpointer da
   const SporeObjectType *type = spore_object_type_child(section, element);
   g_autoptr(GError) error = NULL;
   spore_window_show_tab(self, self->exercise);
-  if (spore_edit_can_add_step(document_of(self), element, &error)) spore_window_begin_pick(self, &step_pick, type, 0);
+  if (spore_edit_can_add_step(document_of(self), element, &error))
+    spore_window_begin_pick(self, (SporePickDraft){.kind = &step_pick, .type = type});
   else spore_window_failed(self, error);
 }
 
 static void act_aim_step(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeObject *step = selected_part(self);
-  if (spore_step_is(step)) spore_window_begin_pick(self, &step_pick, spore_object_type(step), spore_object_id(step));
+  if (!spore_step_is(step)) return;
+  spore_window_begin_pick(
+      self, (SporePickDraft){.kind = &step_pick, .type = spore_object_type(step), .object = spore_object_id(step)});
 }
 
 static void act_add_metric(GSimpleAction *action, GVariant *parameter, gpointer data) {

@@ -24,7 +24,12 @@ static void update_title(SporeWindow *self) {
 static void update(SporeWindow *self) {
   update_title(self);
   spore_window_update_actions(self);
-  spore_window_show_hint(self);
+  spore_window_show_hands(self);
+}
+
+static void selection_changed(SporeWindow *self) {
+  spore_window_update_actions(self);
+  spore_window_show_hands(self);
 }
 
 static void history_changed(SporeWindow *self) {
@@ -73,8 +78,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_player_set_speed(self->player, g_ascii_strtod(g_variant_get_string(speed, NULL), NULL));
   g_signal_connect_object(self->document, "history-changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->document, "changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
-  g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(spore_window_update_actions), self,
-                          G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "progressed", G_CALLBACK(spore_window_show_job), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);

@@ -9,6 +9,7 @@ static const SporePickKind link_pick = {
     .doc = spore_link_end_doc,
     .add = spore_edit_add_link,
     .tie = spore_edit_tie_link,
+    .first = N_("%s, click %u of %u: %s Escape ends"),
     .later = N_("%s, click %u of %u: %s Beside the bodies is the scene; Escape goes back"),
 };
 
@@ -19,14 +20,16 @@ static void act_add_link(GSimpleAction *action, GVariant *parameter, gpointer da
   const SporeObjectType *section = spore_object_type(spore_document_section(document, "links"));
   const SporeObjectType *type = spore_object_type_child(section, element);
   g_autoptr(GError) error = NULL;
-  if (type) spore_window_begin_pick(self, &link_pick, type, 0);
+  if (type) spore_window_begin_pick(self, (SporePickDraft){.kind = &link_pick, .type = type});
   else if (!spore_edit_add_link(document, element, NULL, 0, &error)) spore_window_failed(self, error);
 }
 
 static void act_tie_link(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeObject *link = spore_editor_document_selected(self->document);
-  if (spore_link_is(link)) spore_window_begin_pick(self, &link_pick, spore_object_type(link), spore_object_id(link));
+  if (!spore_link_is(link)) return;
+  spore_window_begin_pick(
+      self, (SporePickDraft){.kind = &link_pick, .type = spore_object_type(link), .object = spore_object_id(link)});
 }
 
 void spore_window_fill_link_menu(SporeWindow *self) {

@@ -20,11 +20,12 @@ void spore_window_end_pick(SporeWindow *self) {
   show_draft(self);
 }
 
-void spore_window_begin_pick(SporeWindow *self, const SporePickKind *kind, const SporeObjectType *type,
-                             guint32 object) {
+void spore_window_begin_pick(SporeWindow *self, SporePickDraft draft) {
   if (!spore_window_may_edit(self)) return;
   g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
-  self->draft = (SporePickDraft){.kind = kind, .type = type, .object = object};
+  self->draft = draft;
+  if (!draft.name) self->draft.name = draft.type->element;
+  if (!draft.label) self->draft.label = draft.type->label;
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), TRUE);
   show_draft(self);
 }
@@ -50,7 +51,7 @@ static void finish(SporeWindow *self) {
     spore_window_end_pick(self);
     return;
   }
-  if (!object) object = draft.kind->add(document_of(self), draft.type->element, ends, draft.count, &error);
+  if (!object) object = draft.kind->add(document_of(self), draft.name, ends, draft.count, &error);
   else if (!draft.kind->tie(document_of(self), object, ends, draft.count, &error)) object = NULL;
   if (spore_window_failed(self, error)) {
     if (self->draft.count) self->draft.count--; /* another click may mend it */
@@ -59,6 +60,7 @@ static void finish(SporeWindow *self) {
   }
   spore_window_end_pick(self);
   spore_editor_document_select(self->document, spore_object_id(object));
+  if (draft.kind->added) draft.kind->added(self, draft.count);
 }
 
 static void picked(SporeWindow *self, guint body, const SporeVec3 *place) {
@@ -66,9 +68,20 @@ static void picked(SporeWindow *self, guint body, const SporeVec3 *place) {
   if (!draft->type || !spore_window_may_edit(self)) return;
   draft->bodies[draft->count] = body;
   draft->places[draft->count++] = *place;
-  if (!body && draft->count == 1) finish(self); /* which says what is wrong with it */
+  if (!body && draft->count == 1 && !draft->kind->anywhere) finish(self); /* which says what is wrong with it */
   else if (draft->count == draft->kind->count(draft->type)) finish(self);
   else show_draft(self);
+}
+
+/* Shows how it would lie with the cursor there. */
+static void pointed(SporeWindow *self, guint body, const SporeVec3 *place) {
+  const SporePickDraft *draft = &self->draft;
+  SporeVec3 places[SPORE_LINK_MOST_ENDS], points[SPORE_OUTLINE_POINTS];
+  if (!draft->type || !draft->kind->outline || draft->count >= SPORE_LINK_MOST_ENDS) return;
+  for (guint i = 0; i < draft->count; i++) places[i] = draft->places[i];
+  places[draft->count] = *place;
+  guint count = draft->kind->outline(document_of(self), draft->name, places, draft->count + 1, points);
+  spore_viewport_set_outline(SPORE_VIEWPORT(self->viewport), points, count);
 }
 
 static void act_pick_done(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -92,4 +105,5 @@ void spore_window_add_pick_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {{"pick-back", act_pick_back}, {"pick-done", act_pick_done}};
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   g_signal_connect_object(self->viewport, "picked", G_CALLBACK(picked), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->viewport, "pointed", G_CALLBACK(pointed), self, G_CONNECT_SWAPPED);
 }

@@ -3,6 +3,7 @@
 #ifndef SPORE_UI_SPORE_WINDOW_PRIVATE_H
 #define SPORE_UI_SPORE_WINDOW_PRIVATE_H
 
+#include "core/author/instrument_edits.h"
 #include "core/author/link_edits.h"
 #include "ui/document/recovery.h"
 #include "ui/jobs/spore-generator.h"
@@ -19,20 +20,27 @@
 #include "ui/spore-window.h"
 #include "ui/viewport/spore-viewport.h"
 
-/* What is made by picking: links, or steps of an exercise. */
+/* What is made by picking: links, steps of an exercise, or instruments. */
 typedef struct SporePickKind {
   guint (*count)(const SporeObjectType *type);                /* clicks that it takes */
   const char *(*doc)(const SporeObjectType *type, guint end); /* what is clicked on, translated */
-  SporeObject *(*add)(SporeDocument *document, const char *element, const SporeLinkEnd *ends, guint count,
-                      GError **error);
+  SporeObject *(*add)(SporeDocument *document, const char *name, const SporeLinkEnd *ends, guint count, GError **error);
   gboolean (*tie)(SporeDocument *document, SporeObject *object, const SporeLinkEnd *ends, guint count, GError **error);
-  const char *later; /* hint after the first click, translatable: label, number of the click, of how many, doc */
+  /* NULL, or the line along which it would lie, the last of the places being under the
+   * cursor; SPORE_OUTLINE_POINTS at most. */
+  guint (*outline)(SporeDocument *document, const char *name, const SporeVec3 *places, guint count, SporeVec3 *points);
+  void (*added)(SporeWindow *self, guint count); /* NULL, or called when it stands and is selected */
+  const char *first; /* hint before the first click, translatable: label, number of the click, of how many, doc */
+  const char *later; /* hint after that, the same */
+  gboolean anywhere; /* the first click may be beside all bodies */
 } SporePickKind;
 
 /* An object whose ends are being picked. */
 typedef struct SporePickDraft {
   const SporePickKind *kind;
   const SporeObjectType *type; /* NULL: none */
+  const char *name;            /* for `add`; NULL: the element of the type */
+  const char *label;           /* for people, translatable; NULL: that of the type */
   guint32 object;              /* id of the one that gets other ends; 0: a new one */
   guint count;                 /* of the ends so far */
   guint32 bodies[2];           /* ids; 0: the scene */
@@ -56,8 +64,8 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  GMenu *mesh_operations; /* in the menu */
-  GMenu *link_kinds;
+  GMenu *mesh_operations;                       /* in the menu */
+  GMenu *link_kinds, *instrument_kinds, *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
@@ -99,8 +107,8 @@ void spore_window_select(SporeWindow *self, const GPtrArray *bodies);
 
 /* spore-window-picking.c: what is made by clicks in the view. */
 void spore_window_add_pick_actions(SporeWindow *self);
-/* Begins to pick the ends of a new object of that type, or other ends for the object of that id. */
-void spore_window_begin_pick(SporeWindow *self, const SporePickKind *kind, const SporeObjectType *type, guint32 object);
+/* Begins to pick the ends of a draft that has none yet. */
+void spore_window_begin_pick(SporeWindow *self, SporePickDraft draft);
 /* Forgets what is being picked, if anything is. */
 void spore_window_end_pick(SporeWindow *self);
 
@@ -108,6 +116,13 @@ void spore_window_end_pick(SporeWindow *self);
 void spore_window_add_link_actions(SporeWindow *self);
 /* An entry for each kind of link that the schema has. */
 void spore_window_fill_link_menu(SporeWindow *self);
+
+/* spore-window-instruments.c: instruments of the library. */
+void spore_window_add_instrument_actions(SporeWindow *self);
+/* An entry for each kind of instrument. */
+void spore_window_fill_instrument_menu(SporeWindow *self);
+/* Says which instruments can be led, and which one is. */
+void spore_window_show_hands(SporeWindow *self);
 
 /* spore-window-exercise.c: steps and metrics of the exercise. */
 void spore_window_add_exercise_actions(SporeWindow *self);

@@ -5,6 +5,7 @@
 #include "core/author/exercise_edits.h"
 #include "core/author/soft_edits.h"
 #include "core/scene/generated.h"
+#include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
 
 /* Telling. */
@@ -139,9 +140,19 @@ static char *draft_hint(SporeWindow *self) {
   guint ends = draft->type ? draft->kind->count(draft->type) : 0;
   if (draft->count >= ends) return NULL; /* the object is being made */
   const char *doc = draft->kind->doc(draft->type, draft->count);
-  if (!draft->count)
-    return g_strdup_printf(_("%s, click %u of %u: %s Escape ends"), _(draft->type->label), 1, ends, doc);
-  return g_strdup_printf(_(draft->kind->later), _(draft->type->label), draft->count + 1, ends, doc);
+  const char *hint = draft->count ? draft->kind->later : draft->kind->first;
+  return g_strdup_printf(_(hint), _(draft->label), draft->count + 1, ends, doc);
+}
+
+/* How the instrument is led; NULL: there is none, or it does not run. Which one it is stands beside it in the view. */
+static const char *leading_hint(SporeWindow *self) {
+  const SporeObject *led = spore_viewport_get_led(SPORE_VIEWPORT(self->viewport));
+  if (!led || !spore_player_get_session(self->player)) return NULL;
+  return spore_hand_latches(spore_editor_document_get(self->document), led)
+             ? _("Drag leads it, Shift+drag turns it; right button or C closes it, Ctrl+right button or O opens it; N, "
+                 "P: "
+                 "another one")
+             : _("Drag leads it, Shift+drag turns it; right button or C closes it, O lets go; N, P: another one");
 }
 
 static const char *hint_for(SporeWindow *self) {
@@ -159,8 +170,9 @@ static const char *hint_for(SporeWindow *self) {
     return _("Nothing to edit by hand here: select an organ that has spheres or a middle line");
   if (edits)
     return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
+  if (g_str_equal(g_variant_get_string(tool, NULL), "probe") && leading_hint(self)) return leading_hint(self);
   if (spore_player_is_playing(self->player))
-    return _("Choose Probe: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
+    return _("Choose Lead: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
   if (!spore_player_get_session(self->player))
     return _("Click selects, a drag beside the organs turns, wheel zooms, F frames; F5 plays");
   return _("Paused: F5 goes on, F6 makes one step, Shift+F5 goes back to the start");

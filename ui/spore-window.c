@@ -142,6 +142,7 @@ static void spore_window_dispose(GObject *object) {
   g_clear_pointer(&self->leftover, spore_leftover_free);
   g_clear_pointer(&self->scenes, g_free);
   g_clear_pointer(&self->loose, g_array_unref);
+  g_clear_object(&self->hands);
   G_OBJECT_CLASS(spore_window_parent_class)->dispose(object);
 }
 
@@ -176,6 +177,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, instrument_kinds);
 }
 
 static void spore_window_class_init(SporeWindowClass *class) {
@@ -212,6 +214,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_body_actions(self);
   spore_window_add_pick_actions(self);
   spore_window_add_link_actions(self);
+  spore_window_add_instrument_actions(self);
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
@@ -231,6 +234,7 @@ SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *sc
   self->schema = schema;
   self->scenes = g_strdup(scenes);
   spore_window_fill_link_menu(self);
+  spore_window_fill_instrument_menu(self);
   g_action_group_activate_action(G_ACTION_GROUP(self), "new", NULL);
   self->fresh = TRUE;
   return self;

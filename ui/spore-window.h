@@ -8,8 +8,9 @@
  *               save-recording-dialog, save-film [s path], save-film-dialog, save-numbers [s path],
  *               save-numbers-dialog, save-plot [s path], save-plot-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
- *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
- *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
+ *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
+ *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
+ *               that is led], add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
  *               remove-region [s path], add-link [s element], tie-link (the selected one), pick-back, pick-done
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),

@@ -324,3 +324,20 @@ SporeObject *spore_edit_add_instrument(SporeDocument *document, const SporeInstr
   SporeObject *body = add(&addition, &places, error);
   return spore_edit_finish(document, body != NULL) ? body : NULL;
 }
+
+guint spore_instrument_outline(SporeDocument *document, const SporeInstrumentKind *instrument,
+                               SporeInstrumentPlaces places, SporeVec3 points[SPORE_OUTLINE_POINTS]) {
+  Addition addition = {.document = document, .instrument = instrument};
+  if (!place(&addition, &places, NULL)) return 0;
+  SporeVec3 tip = spore_instrument_tip(instrument), tail = {0, addition.length, 0};
+  if (instrument->head != SPORE_HEAD_ARC) {
+    points[0] = spore_pose_apply(addition.pose, tail);
+    points[1] = spore_pose_apply(addition.pose, tip);
+    return 2;
+  }
+  for (guint i = 0; i < SPORE_OUTLINE_POINTS; i++) {
+    double angle = G_PI * i / (SPORE_OUTLINE_POINTS - 1), radius = instrument->head_radius;
+    points[i] = spore_pose_apply(addition.pose, (SporeVec3){-radius * cos(angle), radius * sin(angle), 0});
+  }
+  return SPORE_OUTLINE_POINTS;
+}

@@ -21,4 +21,11 @@ typedef struct SporeInstrumentPlaces {
 SporeObject *spore_edit_add_instrument(SporeDocument *document, const SporeInstrumentKind *instrument, const char *name,
                                        SporeInstrumentPlaces places, GError **error);
 
+#define SPORE_OUTLINE_POINTS 9
+
+/* The line along which the instrument would lie there: from the end of its shaft, or of a needle, to its tip. Returns
+ * how many points the line has, in the scene, m; 0: the two places are too near to each other. */
+guint spore_instrument_outline(SporeDocument *document, const SporeInstrumentKind *instrument,
+                               SporeInstrumentPlaces places, SporeVec3 points[SPORE_OUTLINE_POINTS]);
+
 #endif

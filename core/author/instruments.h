@@ -27,9 +27,10 @@ typedef enum SporeInstrumentPart {
 } SporeInstrumentPart;
 
 typedef struct SporeInstrumentKind {
-  const char *name;  /* on the command line, and the beginning of the names of its bodies */
-  const char *label; /* for people, translatable (N_) */
-  const char *tool;  /* element of the scene's file */
+  const char *name;    /* on the command line, and the beginning of the names of its bodies */
+  const char *label;   /* for people, translatable (N_) */
+  const char *purpose; /* what it does, a few words that go after the label, translatable (N_) */
+  const char *tool;    /* element of the scene's file */
   SporeInstrumentHead head;
   double radius;               /* of the shaft, or of a needle's wire */
   double head_length;          /* of jaws, blades and prongs, beyond the shaft; 0 for the others */

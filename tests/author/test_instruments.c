@@ -110,13 +110,27 @@ static void assert_stands(const SporeObject *body, const SporeInstrumentKind *ki
   if (!upright) g_assert_cmpfloat(ahead.y, <=, shaft.y * cos(kind->look_rad) + 1e-3);
 }
 
+/* What is shown beforehand ends at the tip, and begins outside the entry or at the end of the needle's thread. */
+static void assert_outline(const SporeObject *body, const SporeInstrumentKind *kind, const SporeVec3 *line,
+                           guint points) {
+  g_assert_cmpuint(points, ==, kind->head == SPORE_HEAD_ARC ? SPORE_OUTLINE_POINTS : 2);
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(line[points - 1], tip_of(body, kind->name)), 0, ROUNDED);
+  SporeVec3 begins = spore_pose_apply_inverse(spore_body_pose(body), line[0]);
+  if (kind->head == SPORE_HEAD_ARC) g_assert_cmpfloat_with_epsilon(begins.x, -kind->head_radius, ROUNDED);
+  else g_assert_cmpfloat(begins.y, >, 0.1);
+}
+
 static void test_stands(void) {
   Scene scene = scene_new();
   for (const SporeInstrumentKind *one = spore_instruments; one->name; one++)
     for (gsize i = 0; i < G_N_ELEMENTS(entries); i++) {
       g_autofree char *before = fixture_format(scene.document);
+      SporeVec3 line[SPORE_OUTLINE_POINTS];
+      guint points =
+          spore_instrument_outline(scene.document, one, (SporeInstrumentPlaces){&entries[i], &targets[i]}, line);
       SporeObject *body = add(&scene, one->name, &entries[i], &targets[i]);
       assert_stands(body, one, entries[i], targets[i]);
+      assert_outline(body, one, line, points);
       spore_document_undo(scene.document);
       g_autofree char *after = fixture_format(scene.document);
       g_assert_cmpstr(after, ==, before);
@@ -246,6 +260,10 @@ static void test_refusals(void) {
                                           (SporeInstrumentPlaces){&near, &target}, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "choose places that are farther apart");
   g_assert_false(spore_document_can_undo(scene.document));
+  SporeVec3 line[SPORE_OUTLINE_POINTS];
+  g_assert_cmpuint(spore_instrument_outline(scene.document, spore_instrument_find("grasper"),
+                                            (SporeInstrumentPlaces){&near, &target}, line),
+                   ==, 0);
   SporeVec3 tip = tip_of(add(&scene, "grasper", &enough, &target), "grasper");
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(tip, target), 0.0051, ROUNDED);
   g_assert_null(spore_instrument_find("graspr"));

@@ -16,6 +16,7 @@
 #include "core/author/instrument_edits.h"
 #include "core/author/generated_edits.h"
 #include "ui/document/hand-edit.h"
+#include "ui/document/hands.h"
 #include "ui/document/number-text.h"
 #include "ui/document/labels.h"
 #include "ui/document/mapping-report.h"
@@ -462,6 +463,36 @@ static void test_probe_and_pin(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_object_child_count(spore_document_section(fixture->document, "devices")), ==, 1);
 }
 
+/* Jaws go with their shaft, an organ with nobody; a tool is led by its body, what looks along by the one it looks from.
+ */
+static void test_hands(Fixture *fixture, gconstpointer data) {
+  SporeObject *organ = add_organ(fixture), *tools = spore_document_section(fixture->document, "tools");
+  const char *const kinds[] = {"probe", "clamp", "endoscope"};
+  SporeObject *added[G_N_ELEMENTS(kinds)];
+  for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
+    added[i] = spore_edit_add_instrument(fixture->document, spore_instrument_find(kinds[i]), NULL,
+                                         (SporeInstrumentPlaces){0}, NULL);
+  g_autoptr(GPtrArray) hands = spore_hands(fixture->document);
+  g_assert_cmpuint(hands->len, ==, G_N_ELEMENTS(kinds));
+  for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++) {
+    g_assert_true(hands->pdata[i] == added[i]);
+    g_assert_true(spore_hand_of(fixture->document, spore_object_child_of(added[i], "visual")) == added[i]);
+    g_assert_true(spore_hand_latches(fixture->document, added[i]) == g_str_equal(kinds[i], "clamp"));
+    SporeObject *jaws[2];
+    g_assert_true(spore_hand_jaws(fixture->document, added[i], jaws) == g_str_equal(kinds[i], "clamp"));
+  }
+  SporeObject *jaw = spore_document_find(fixture->document, "body", "clamp_1_jaw_b");
+  SporeObject *clamp = spore_object_child_of(tools, "clamp"), *camera = spore_object_child_of(tools, "camera");
+  g_assert_nonnull(jaw);
+  g_assert_true(spore_hand_of(fixture->document, jaw) == added[1]);
+  g_assert_true(spore_hand_of(fixture->document, clamp) == added[1]);
+  g_assert_nonnull(camera);
+  g_assert_true(spore_hand_of(fixture->document, camera) == added[2]);
+  g_assert_null(spore_hand_of(fixture->document, organ));
+  g_assert_null(spore_hand_of(fixture->document, tools));
+  g_assert_null(spore_hand_of(fixture->document, NULL));
+}
+
 static void test_set_property(Fixture *fixture, gconstpointer data) {
   static const char *const refused[][3] = {
       {"bodies/none", "role", "active"},
@@ -740,6 +771,7 @@ int main(int argc, char **argv) {
       {"mapping-report", test_mapping_report},
       {"set-model", test_set_model},
       {"probe-and-pin", test_probe_and_pin},
+      {"hands", test_hands},
       {"set-property", test_set_property},
       {"selection", test_selection},
       {"several-selected", test_several_selected},

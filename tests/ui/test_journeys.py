@@ -59,6 +59,12 @@ def make_soft_ball(editor, count=40):
     ui.wait(lambda: editor.row("ball_pin"), "the pin in the outliner")
 
 
+def add_probe(editor):
+    """Where the library puts it by itself."""
+    editor.act("add-instrument", "s", "probe")
+    editor.act("pick-done")
+
+
 def undo_all(editor):
     count = 0
     while editor.enabled("undo"):
@@ -175,7 +181,10 @@ class Mouse:
     def click_on(self, node):
         places = []  # a dialog is laid out before it stands
         ui.wait(lambda: places.append(self.editor.place(node)) or (len(places) > 1 and places[-1] == places[-2]), "the thing to stand still")
-        click(self.editor, middle(self.editor, node))
+        self.click_at(*middle(self.editor, node))
+
+    def click_at(self, x, y):
+        click(self.editor, (x, y))
         self.clicks += 1
 
 
@@ -194,8 +203,13 @@ def a_folder_of_organs_to_a_scene_that_plays():
         editor.find("label", "^3 bodies$")  # all that came are selected
         mouse.click("push button", "^Make soft$")
         ui.wait(lambda: all(editor.row(f"{organ}_pin") for organ in ("liver", "spleen", "thing")), "three soft organs that are held", 120)
-        mouse.click("toggle button", "^Menu$")
-        mouse.click("menu item|.*button", "^Add probe$")
+        mouse.click("toggle button", "^Instrument$")
+        mouse.click("menu item|.*button", "^Probe: ")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.find("label", "^Probe, click 1 of 2: where it enters")
+        mouse.click_at(x + width // 2, y + height // 4)
+        editor.find("label", "^Probe, click 2 of 2: what it points at")
+        mouse.click_at(x + width // 2, y + height // 2)
         ui.wait(lambda: editor.row("mouse"), "the probe")
         mouse.click("push button", "^Play")
         ui.wait(lambda: editor.enabled("pause") and editor.time_s(), "the scene to play", 60)
@@ -1078,7 +1092,7 @@ def everything_undone():
     """all that was done to a scene can be undone to nothing and redone to the same file."""
     with start() as editor:
         make_soft_ball(editor)
-        editor.act("add-probe")
+        add_probe(editor)
         editor.act("set-property", "(sss)", ("bodies/ball/collision", "stiffness", "400"))
         full = saved(editor, "full")
         assert undo_all(editor) >= 6
@@ -1161,19 +1175,19 @@ def probe_pushes():
     """the probe follows the mouse, presses into the organ, and its force is shown."""
     with start() as editor:
         make_soft_ball(editor)
-        editor.act("add-probe")
+        add_probe(editor)
         ui.wait(lambda: editor.row("mouse"), "the probe")
         editor.act("view", "s", "front")
         editor.act("play")
         ui.wait(lambda: (editor.time_s() or 0) > 0.01, "time to advance")
-        ui.wait(lambda: editor.hud(r"Probe force (\d+\.\d+)") == 0, "no force yet")
+        ui.wait(lambda: editor.hud(r"Force on probe_1: (\d+\.\d+)") == 0, "no force yet")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
         middle = x + width // 2
         editor.mouse("mousemove", middle, y + height // 3, "mousedown", 1)
         for part in range(1, 13):
             editor.mouse("mousemove", middle, y + height // 3 + part * height // 40)
             let_time_pass(editor, 0.02)
-        force = ui.wait(lambda: editor.hud(r"Probe force (\d+\.\d+)"), "a force on the probe")
+        force = ui.wait(lambda: editor.hud(r"Force on probe_1: (\d+\.\d+)"), "a force on the probe")
         editor.mouse("mouseup", 1)
         assert force > 0
 
@@ -1832,6 +1846,141 @@ def every_link_is_picked():
                 assert vector(link["direction"])[0] > 0.99, link
             editor.act("undo")
             ui.wait(lambda: not editor.row(f"left_{element}"), "the link to be undone")
+
+
+INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),
+               "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "needle": ("Needle with thread", "needle"),
+               "endoscope": ("Endoscope", "probe"), "endoscope_30": ("Endoscope, 30 degrees", "probe")}
+
+
+@check
+def every_instrument_is_placed():
+    """each kind of the library is in the menu with what it does; two clicks place one, shown beforehand; it is selected, led, and undone in one step."""
+    with start(two_balls("placed")) as editor:
+        left, right, above = on_balls(editor)
+        editor.press(editor.find("toggle button", "^Instrument$"))
+        for label, tool in INSTRUMENTS.values():
+            entry = editor.find("menu item|push button|check box|radio button", f"^{label}: [a-z]")
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.showing(entry), "the menu to close")
+        for kind in ("grasper", "needle"):
+            label, tool = INSTRUMENTS[kind]
+            editor.act("add-instrument", "s", kind)
+            editor.find("label", f"^{label}, click 1 of 2: where it enters")
+            editor.mouse("mousemove", *above, "click", 1)
+            editor.find("label", f"^{label}, click 2 of 2: what it points at")
+            bare = picture_sum(editor)
+            editor.mouse("mousemove", right[0], right[1] + 4, "mousemove", *right)
+            ui.wait(lambda: picture_sum(editor) != bare, "it to be shown where it will stand")
+            editor.mouse("click", 1)
+            ui.wait(lambda: editor.row(f"{kind}_1"), f"the {kind}")
+            ui.wait(lambda: editor.enabled("rename"), "it to be selected")
+            assert editor.state("tool") == "probe"
+            root = xml.etree.ElementTree.fromstring(saved(editor, "placed"))
+            made = root.find(f"tools/{tool}[@name='{kind}_1']")
+            port = root.find("links/port")
+            assert made.get("body") == f"{kind}_1" and made.get("device") == "mouse", made.attrib
+            assert (port is None) == (kind == "needle") and (port is None or vector(port.get("point"))[1] > 0.02), kind
+            tip = vector(root.find(f"bodies/body[@name='{kind}_1']").get("position"))
+            assert tip[0] > 0.0, (kind, tip)
+            editor.act("undo")
+            ui.wait(lambda: not editor.row(f"{kind}_1") and not editor.row("mouse"), "it to be undone in one step")
+
+
+@check
+def an_instrument_by_the_keyboard():
+    """Escape takes a click back and ends the placing; places too near to each other are refused in words; Enter leaves the rest to the library."""
+    with start(two_balls("led")) as editor:
+        left, right, above = on_balls(editor)
+        editor.act("add-instrument", "s", "probe")
+        editor.find("label", "click 1 of 2: where it enters")
+        editor.mouse("mousemove", *above, "click", 1)
+        editor.find("label", "click 2 of 2: ")
+        editor.focus()
+        editor.keys("Escape")
+        editor.find("label", "click 1 of 2: ")
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.look("label", "click . of 2: "), "Escape to end it")
+        assert not editor.enabled("undo") and not editor.row("probe_1")
+        editor.act("add-instrument", "s", "probe")
+        editor.find("label", "click 1 of 2: ")
+        editor.mouse("click", 1)
+        editor.find("label", "click 2 of 2: ")
+        editor.mouse("click", 1)
+        ui.wait(lambda: "choose places that are farther apart" in (editor.message() or ""), "the refusal")
+        editor.find("label", "click 2 of 2: ")
+        editor.keys("Return")
+        ui.wait(lambda: editor.row("probe_1"), "the probe")
+        assert "<port " in saved(editor, "led")
+        editor.act("undo")
+        editor.act("add-instrument", "s", "probe")
+        editor.find("label", "click 1 of 2: ")
+        editor.keys("Return")
+        ui.wait(lambda: editor.row("probe_1"), "the probe")
+        assert "<port " not in saved(editor, "led"), "nobody said where it enters"
+
+
+@check
+def which_instrument_is_led():
+    """the view and the corner name the instrument that is led; N and P and the list change it; what is selected beside it does not."""
+    scene = two_balls("hands")
+    subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "edit", scene, "--instrument", "probe@-0.1,0.2,0@-0.05,0.06,0",
+                    "--instrument", "grasper@0.1,0.2,0@0.05,0.06,0"], check=True, stdout=subprocess.DEVNULL)
+    with start(scene) as editor:
+        on_balls(editor)
+        editor.act("tool", "s", "probe")
+        editor.act("step")
+        ui.wait(lambda: editor.hud(r"Force on probe_1: (\d+\.\d+) N(?!  ·  )") is not None, "the probe to be led")
+        assert editor.state("lead") == "probe_1"
+        editor.find("label", "right button or C closes it, O lets go")
+        shown = picture_sum(editor)
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.focus()
+        editor.mouse("mousemove", x + width // 2, y + height - 40, "click", 2)
+        editor.keys("n")
+        ui.wait(lambda: editor.hud(r"Force on grasper_1: \d+\.\d+ N  ·  (open|closed)", str), "the grasper to be led")
+        assert editor.state("lead") == "grasper_1"
+        ui.wait(lambda: picture_sum(editor) != shown, "its name to be shown")
+        editor.act("select", "s", "bodies/left")
+        ui.wait(lambda: editor.find("label", "^left$"), "an organ to be selected")
+        assert editor.hud(r"Force on (\w+)", str) == "grasper_1" and editor.state("lead") == "grasper_1"
+        editor.keys("p")
+        ui.wait(lambda: editor.state("lead") == "probe_1", "the probe to be led again")
+        editor.press(editor.find("toggle button", "^Which instrument is led$"))
+        editor.press(editor.find("menu item|.*button", "^grasper_1$"))
+        ui.wait(lambda: editor.state("lead") == "grasper_1", "the list to lead the grasper")
+        before = editor.time_s()
+        where = picture_sum(editor)
+        editor.mouse("mousemove", x + width // 2, y + height - 40, "click", 2)
+        editor.keys("Right", "Right", "Right", "c")
+        editor.act("step")
+        ui.wait(lambda: editor.time_s() > before and picture_sum(editor) != where, "the keys to lead it")
+
+
+@check
+def a_clamp_is_opened_again():
+    """a clamp that has closed on tissue stays closed, also when the mouse takes it and lets go, until Ctrl with the right button opens it, or O."""
+    opening = r"open (\d+)°"
+    with start(SCENES / "plate8-clamp.spore") as editor:
+        ui.wait(lambda: editor.row("shaft"), "the scene")
+        editor.act("tool", "s", "probe")
+        editor.act("play")
+        editor.find("label", "Ctrl.right button or O opens it")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.focus()
+        ui.wait(lambda: (editor.time_s() or 0) > 1.9, "the track to close it and let go", 120)
+        assert editor.hud(opening) < 30
+        editor.mouse("mousemove", x + width // 2, y + height // 2, "keydown", "Control_L", "click", 3, "keyup", "Control_L")
+        ui.wait(lambda: editor.hud(opening) == 63, "Ctrl and the right button to open it", 60)
+        editor.mouse("mousedown", 3)
+        ui.wait(lambda: editor.hud(opening) < 30, "the right button to close it", 60)
+        let_time_pass(editor, 0.3)
+        editor.mouse("mouseup", 3)
+        let_time_pass(editor, 0.3)
+        assert editor.hud(opening) < 30, "it stays closed on the tissue"
+        editor.keys("o")
+        ui.wait(lambda: editor.hud(opening) == 63, "the key to open it", 60)
 
 
 @check

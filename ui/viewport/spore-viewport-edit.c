@@ -150,10 +150,6 @@ static void pick(SporeViewport *self, double x, double y) {
   self->edit.chosen = spore_hand_edit_pick(&self->edit, to_body(self, origin), turned_to_body(self, direction));
 }
 
-static SporeVec3 under_cursor(SporeViewport *self, SporeVec3 through) {
-  return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y, width_of(self), height_of(self));
-}
-
 /* Regions change in the scene during the drag, so that their numbers in the inspector change too. */
 static void write_region(SporeViewport *self) {
   g_autoptr(GError) error = NULL;
@@ -165,7 +161,7 @@ static void begin_drag(SporeViewport *self) {
   const double *ball = chosen(self);
   memcpy(self->edit_before, ball, sizeof self->edit_before);
   SporeVec3 held = self->edit_resizes ? rim_of(self, ball) : middle_of(self, ball);
-  self->offset = spore_vec3_sub(held, under_cursor(self, held));
+  self->offset = spore_vec3_sub(held, spore_viewport_under_cursor(self, held));
   self->drag = DRAG_EDIT;
   if (edits_regions(self)) spore_document_begin(document_of(self), _("Place region"));
 }
@@ -200,7 +196,7 @@ void spore_viewport_edit_motion(SporeViewport *self) {
   double *ball = chosen(self);
   if (!ball) return;
   SporeVec3 middle = middle_of(self, ball), held = self->edit_resizes ? rim_of(self, ball) : middle;
-  SporeVec3 led = spore_vec3_add(under_cursor(self, held), self->offset);
+  SporeVec3 led = spore_vec3_add(spore_viewport_under_cursor(self, held), self->offset);
   if (self->edit_resizes) ball[3] = fmax(spore_vec3_distance(led, middle), LEAST_M);
   else spore_vec3_store(ball, to_body(self, led));
   write_region(self);

@@ -55,17 +55,17 @@ static GMenu *menu_of_body(SporeViewport *self) {
   return menu;
 }
 
-static GMenu *menu_of_nothing(void) {
+static GMenu *menu_of_nothing(SporeViewport *self) {
   GMenu *menu = g_menu_new();
   g_menu_append(menu, _("Frame"), "win.frame");
   g_menu_append(menu, _("Show all"), "win.show-all");
-  g_menu_append(menu, _("Add a probe"), "win.add-probe");
+  g_menu_append_submenu(menu, _("Add instrument"), self->instrument_kinds);
   g_menu_append(menu, _("Import…"), "win.import-dialog");
   return menu;
 }
 
 void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body) {
-  g_autoptr(GMenu) model = of_body ? menu_of_body(self) : menu_of_nothing();
+  g_autoptr(GMenu) model = of_body ? menu_of_body(self) : menu_of_nothing(self);
   GtkWidget *menu = gtk_menu_new_from_model(G_MENU_MODEL(model));
   gtk_menu_attach_to_widget(GTK_MENU(menu), self->area, NULL);
   g_signal_connect(menu, "selection-done", G_CALLBACK(gtk_widget_destroy), NULL);

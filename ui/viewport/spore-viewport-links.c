@@ -4,7 +4,8 @@
 
 #define MARK_PIXELS 4.5   /* radius as drawn */
 #define REACH_PIXELS 10.0 /* distance from a mark or line within which a click meets the link */
-#define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
+#define OUTLINE_PIXELS 7.0
+#define CROSS_PIXELS 9.0 /* arm of the cross in the middle while something is picked */
 
 typedef struct Mark {
   guint32 link; /* object id */
@@ -61,6 +62,20 @@ static void draw_link(SporeViewport *self, cairo_t *cr, const Mark *mark) {
   for (guint end = 0; end < mark->count; end++) draw_dot(cr, at[end][0], at[end][1], chosen);
 }
 
+/* An instrument as a shaft of light: it stands when it is placed. */
+static void draw_outline(SporeViewport *self, cairo_t *cr) {
+  cairo_new_path(cr);
+  for (guint i = 0; i < self->outline_count; i++) {
+    double x, y;
+    if (spore_viewport_project(self, self->outline[i], &x, &y)) cairo_line_to(cr, x, y);
+  }
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgba(cr, 0.85, 0.88, 0.92, 0.7);
+  cairo_set_line_width(cr, OUTLINE_PIXELS);
+  cairo_stroke(cr);
+}
+
 /* The places so far, and a line from there to the cursor. The middle of the view is what the space bar picks. */
 static void draw_picking(SporeViewport *self, cairo_t *cr) {
   double x = 0.5 * gtk_widget_get_allocated_width(self->area), y = 0.5 * gtk_widget_get_allocated_height(self->area);
@@ -69,6 +84,7 @@ static void draw_picking(SporeViewport *self, cairo_t *cr) {
   double at[2], cursor[2] = {self->last_x, self->last_y};
   draw_line(cr, cross[0], cross[1], TRUE);
   draw_line(cr, cross[2], cross[3], TRUE);
+  draw_outline(self, cr);
   for (guint i = 0; i < self->anchor_count; i++) {
     if (!spore_viewport_project(self, self->anchors[i], &at[0], &at[1])) continue;
     draw_line(cr, at, cursor, TRUE);
@@ -108,10 +124,23 @@ guint32 spore_viewport_link_at(SporeViewport *self, double x, double y) {
 void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, guint count) {
   self->anchor_count = MIN(count, G_N_ELEMENTS(self->anchors));
   for (guint i = 0; i < self->anchor_count; i++) self->anchors[i] = places[i];
+  self->outline_count = 0;
   gtk_widget_queue_draw(self->area);
 }
 
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds) {
   g_set_object(&self->link_kinds, kinds);
   gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->link_button), kinds);
+}
+
+void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, guint count) {
+  self->outline_count = MIN(count, G_N_ELEMENTS(self->outline));
+  for (guint i = 0; i < self->outline_count; i++) self->outline[i] = points[i];
+  gtk_widget_queue_draw(self->area);
+}
+
+void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led) {
+  g_set_object(&self->instrument_kinds, kinds);
+  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->instrument_button), kinds);
+  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->led_button), led);
 }

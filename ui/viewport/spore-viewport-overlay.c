@@ -213,6 +213,17 @@ static void append_figures(GString *text, const SporeSession *session, const Spo
   append_levels(text, world, snapshot);
 }
 
+/* What is all but closed is so. */
+#define CLOSED_RAD 0.01
+
+static void append_opening(GString *text, SporeViewport *self) {
+  double opening;
+  if (!spore_viewport_hand_opening(self, &opening)) return;
+  g_string_append(text, "  ·  ");
+  if (opening < CLOSED_RAD) g_string_append(text, _("closed"));
+  else g_string_append_printf(text, _("open %.0f°"), opening * 180 / G_PI);
+}
+
 void spore_viewport_overlay_update(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   gtk_widget_set_visible(self->hud, session != NULL);
@@ -227,7 +238,9 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');
-    g_string_append_printf(text, _("Probe force %.3f N"), spore_vec3_length(force));
+    g_string_append_printf(text, _("Force on %s: %.3f N"), spore_object_name(spore_viewport_get_led(self)),
+                           spore_vec3_length(force));
+    append_opening(text, self);
   }
   append_unsolved(text, world, &figures);
   if (self->figures) append_figures(text, session, snapshot, &figures);

@@ -2,6 +2,7 @@
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 
+#include "core/author/instrument_edits.h"
 #include "ui/document/hand-edit.h"
 #include "ui/viewport/spore-viewport.h"
 
@@ -9,7 +10,8 @@ typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT
 
 struct _SporeViewport {
   GtkOverlay parent;
-  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure, *link_button;
+  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure, *link_button, *instrument_button,
+      *led_button;
 
   SporeEditorDocument *document;
   SporePlayer *player;
@@ -17,8 +19,10 @@ struct _SporeViewport {
   gboolean picking;
   SporeVec3 anchors[2]; /* places that are picked so far */
   guint anchor_count;
-  GArray *link_marks;     /* of the scene's links, see spore-viewport-links.c */
-  GMenuModel *link_kinds; /* for menus */
+  SporeVec3 outline[SPORE_OUTLINE_POINTS]; /* of an instrument that is being placed */
+  guint outline_count;
+  GArray *link_marks;                        /* of the scene's links, see spore-viewport-links.c */
+  GMenuModel *link_kinds, *instrument_kinds; /* for menus */
   SporeStageOptions options;
   gboolean figures; /* in the corner, those of an author, too */
 
@@ -58,6 +62,7 @@ struct _SporeViewport {
   double pressed_x, pressed_y;
   double last_x, last_y;
   SporeCamera camera_before;
+  guint32 led;                        /* id of the body that was led last; 0: none */
   guint32 body;                       /* of the world: held by the probe or pull drag */
   SporeDeviceState hand, hand_before; /* state of the hand that the mouse moves; the same when the drag began */
   SporeVec3 offset;                   /* from the cursor's point to the probe */
@@ -78,6 +83,8 @@ void spore_viewport_look_afresh(SporeViewport *self);
 void spore_viewport_leave_scene_camera(SporeViewport *self);
 void spore_viewport_clear_legend(SporeViewport *self);
 
+/* The place under the cursor that is as far away as another one. */
+SporeVec3 spore_viewport_under_cursor(SporeViewport *self, SporeVec3 through);
 /* Where a place of the scene stands in the view, pixels. FALSE: behind the camera. */
 gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y);
 /* Handles: discs of a fixed size on the screen, at places of the scene. */
@@ -117,9 +124,25 @@ gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 
 /* Opens the menu of the selected body, or of no body. */
 void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body);
 
-/* spore-viewport-gestures.c: mouse and keys. */
+/* spore-viewport-hand.c: the instrument that is led. */
+/* What jaws and pedal do, as bits of a device's buttons. */
+typedef enum { SPORE_HAND_RESTS = 0, SPORE_HAND_CLOSES = 1, SPORE_HAND_OPENS = 2 } SporeHandSqueeze;
 /* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
 gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
+/* How far the jaws of the led instrument are open, rad. FALSE: it has none, or there is no simulation. */
+gboolean spore_viewport_hand_opening(SporeViewport *self, double *opening);
+gboolean spore_viewport_hand_press(SporeViewport *self); /* FALSE: nothing to lead */
+void spore_viewport_hand_motion(SporeViewport *self);
+/* Turns it about its end, as a ball under the cursor would roll; pixels. */
+void spore_viewport_hand_turn(SporeViewport *self, double dx, double dy);
+void spore_viewport_hand_take_back(SporeViewport *self); /* to where the drag began */
+void spore_viewport_hand_deepen(SporeViewport *self, double notches);
+/* Closes or opens the jaws, presses or releases the pedal. What stays closed by itself is opened. */
+void spore_viewport_hand_squeeze(SporeViewport *self, SporeHandSqueeze squeeze);
+gboolean spore_viewport_hand_key(SporeViewport *self, guint key); /* FALSE: not its key */
+void spore_viewport_hand_draw(SporeViewport *self, cairo_t *cr);  /* its name */
+
+/* spore-viewport-gestures.c: mouse and keys. */
 /* Signal handlers of the drawing area, named in the template. */
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self);

@@ -77,6 +77,12 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
 
 /* Handles. */
 
+SporeVec3 spore_viewport_under_cursor(SporeViewport *self, SporeVec3 through) {
+  return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y,
+                                gtk_widget_get_allocated_width(self->area),
+                                gtk_widget_get_allocated_height(self->area));
+}
+
 gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y) {
   return spore_camera_project(&self->camera, place, gtk_widget_get_allocated_width(self->area),
                               gtk_widget_get_allocated_height(self->area), x, y);

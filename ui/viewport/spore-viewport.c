@@ -14,7 +14,7 @@
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
 
-enum { PICKED, PLACES_MOVED, SIGNAL_COUNT };
+enum { PICKED, POINTED, PLACES_MOVED, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 /* Drawing. */
@@ -128,6 +128,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   cairo_restore(cr);
   spore_viewport_overlay_draw(self, cr, width, height);
   spore_viewport_links_draw(self, cr);
+  spore_viewport_hand_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
   spore_viewport_places_draw(self, cr);
   return FALSE;
@@ -187,6 +188,7 @@ static void selection_changed(SporeViewport *self) {
   if (self->stage) show_selection(self);
   self->regions = 0;
   spore_viewport_edit_refresh(self);
+  spore_viewport_overlay_update(self); /* which instrument is led */
   spore_viewport_redraw(self);
 }
 
@@ -236,8 +238,8 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
   spore_viewport_end_drag(self);
   self->picking = picking;
-  self->anchor_count = 0;
-  gtk_widget_queue_draw(self->area);
+  spore_viewport_set_anchors(self, NULL, 0);
+  if (picking) gtk_widget_grab_focus(self->area); /* whose keys pick, too */
 }
 
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool) {
@@ -290,6 +292,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->hidden, g_hash_table_unref);
   g_clear_pointer(&self->link_marks, g_array_unref);
   g_clear_object(&self->link_kinds);
+  g_clear_object(&self->instrument_kinds);
   spore_viewport_clear_legend(self);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }
@@ -299,6 +302,8 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   G_OBJECT_CLASS(class)->dispose = spore_viewport_dispose;
   signals[PICKED] = g_signal_new("picked", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
                                  G_TYPE_NONE, 2, G_TYPE_UINT, G_TYPE_POINTER);
+  signals[POINTED] = g_signal_new("pointed", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                                  G_TYPE_NONE, 2, G_TYPE_UINT, G_TYPE_POINTER);
   signals[PLACES_MOVED] = g_signal_new("places-moved", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
                                        G_TYPE_NONE, 1, G_TYPE_POINTER);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
@@ -310,6 +315,8 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
   gtk_widget_class_bind_template_child(widget, SporeViewport, link_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, instrument_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, led_button);
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_press);

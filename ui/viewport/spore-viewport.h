@@ -3,15 +3,17 @@
  * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
  * the wheel zooms to the cursor, right opens a menu; H hides the selected body, I shows it alone, A shows all; F
  * frames, 1, 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the
- * Probe tool, left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right
- * closes its jaws and presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves
- * spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P
- * go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one
- * there.
+ * Lead tool, left moves the instrument and takes it from its track, Shift+left turns it, the wheel moves it in depth,
+ * right closes its jaws and presses its pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by
+ * itself. N and P choose the instrument, arrows and Page Up and Down move it, C closes it, O opens it. With the Edit
+ * tool, left picks and moves spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, -
+ * resize, arrows move, N and P go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on
+ * the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
  * all bodies, as far away as the last anchor
+ *   pointed (u body, p place)  where the cursor meets that body while picking: as in "picked"
  *   places-moved (p places)    a picked place was dragged elsewhere: const SporeViewportPlaces * */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
@@ -48,12 +50,19 @@ gboolean spore_viewport_has_edited(SporeViewport *self);
 /* While picking, a click of the left button, or the space bar for the middle of the view, emits "picked" instead of
  * selecting. */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
+/* The instrument that the Lead tool leads: the selected one, else the one before, else the first. NULL: none. */
+SporeObject *spore_viewport_get_led(SporeViewport *self);
 /* Shows the places; count 0: none. They can be dragged over the body's surface. */
 void spore_viewport_set_places(SporeViewport *self, const SporeViewportPlaces *places);
 /* Marks places that are picked so far (at most 2), each with a line to the cursor. */
 void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, guint count);
+/* Shows the line along which an instrument would lie; count 0: none. SPORE_OUTLINE_POINTS at most. Goes with the next
+ * anchors. */
+void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, guint count);
 /* The kinds of links, for the view's button and menu. */
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
+/* The kinds of instruments, the same, and the instruments that can be led. */
+void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 /* Whether the corner shows what a step costs, contacts, solver and energy, too. */
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures);
