@@ -1,4 +1,4 @@
-/* Films: of the run so far, of an attempt at the exercise, of two attempts side by side. */
+/* Pictures of the view, and films: of the run so far, of an attempt at the exercise, of two attempts side by side. */
 #include <glib/gi18n.h>
 
 #include "ui/document/attempts.h"
@@ -90,8 +90,27 @@ static void act_film_attempts_dialog(GSimpleAction *action, GVariant *parameter,
   if (file) film_attempts(data, file, parameter);
 }
 
+static void save_picture(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  if (spore_viewport_save_picture(SPORE_VIEWPORT(self->viewport), file, &error))
+    spore_window_log(self, _("Saved %s"), file);
+  else spore_window_failed(self, error);
+}
+
+static void act_save_picture(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_picture(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_picture_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file =
+      spore_window_choose_to_save(data, _("Save a picture of the view"), ".png", _("Pictures (PNG)"), "view.png");
+  if (file) save_picture(data, file);
+}
+
 void spore_window_add_film_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
+      {"save-picture", act_save_picture, "s"},
+      {"save-picture-dialog", act_save_picture_dialog},
       {"save-film", act_save_film, "s"},
       {"save-film-dialog", act_save_film_dialog},
       {"film-attempts", act_film_attempts, "(sax)"},

@@ -149,7 +149,7 @@ void spore_window_recover(SporeWindow *self);
 char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,
                                   const char *proposed);
 
-/* spore-window-film.c: films of runs. */
+/* spore-window-film.c: pictures of the view, and films of runs. */
 void spore_window_add_film_actions(SporeWindow *self);
 
 /* spore-window-mesh.c: importing meshes, and operations on them. */

@@ -284,6 +284,8 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "reset", session);
   set_enabled(self, "save-recording", session);
   set_enabled(self, "save-recording-dialog", session);
+  set_enabled(self, "save-picture", bodies);
+  set_enabled(self, "save-picture-dialog", bodies);
   set_enabled(self, "save-film", session && idle);
   set_enabled(self, "save-film-dialog", session && idle);
   set_enabled(self, "film-attempts", idle);

@@ -1222,6 +1222,24 @@ def mouse_takes_an_instrument_from_its_track():
 
 
 @check
+def the_view_becomes_a_picture():
+    """what the view shows is saved as a picture of its size, without the grid, from where it is seen."""
+    pictures = [folder("pictures") / f"{view}.png" for view in ("camera", "right")]
+    with start(SCENES / "minimal.spore") as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        ui.wait(lambda: editor.enabled("save-picture"), "a picture to be possible")
+        for picture in pictures:
+            editor.act("view", "s", picture.stem)
+            editor.act("save-picture", "s", str(picture))
+            ui.wait(picture.exists, "the picture")
+        width, height = editor.place(editor.find(".*", "^Viewport$"))[2:]
+        editor.act("save-picture", "s", str(folder("pictures") / "no" / "folder.png"))
+        ui.wait(lambda: "no/folder.png" in (editor.message() or ""), "the refusal of a place that is not there")
+    rows = [picture_files.png(picture) for picture in pictures]
+    assert {(len(one), len(one[0])) for one in rows} == {(height, 3 * width)} and rows[0] != rows[1]
+
+
+@check
 def a_run_becomes_a_film():
     """what was played is filmed while the window goes on; Cancel and a name of another kind leave no film."""
     if "video" not in FEATURES:

@@ -134,6 +134,20 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   return FALSE;
 }
 
+gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GError **error) {
+  int scale = gtk_widget_get_scale_factor(self->area);
+  SporeRenderOptions options = {gtk_widget_get_allocated_width(self->area) * scale,
+                                gtk_widget_get_allocated_height(self->area) * scale, .grid = FALSE, .antialias = TRUE};
+  gsize stride = (gsize)options.width * 4;
+  ensure_stage(self);
+  if (!self->renderer)
+    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, file, "%s",
+                             _("the scene cannot be drawn on this machine; the view says why"));
+  g_autofree guint8 *pixels = g_malloc(stride * (gsize)options.height);
+  return spore_renderer_draw(self->renderer, &self->camera, &options, pixels, stride, error) &&
+         spore_png_write(file, pixels, options.width, options.height, stride, error);
+}
+
 /* The choice of what is shown stands beside the tools, or below them where there is no room. */
 static gboolean place_overlays(gpointer data) {
   g_autoptr(SporeViewport) self = data;

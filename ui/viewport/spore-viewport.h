@@ -82,6 +82,9 @@ void spore_viewport_frame_soon(SporeViewport *self);
 /* "front", "right", "top", or "camera": through the first camera of the scene, following it; without a camera, the
  * whole scene. */
 void spore_viewport_view(SporeViewport *self, const char *view);
+/* Writes the scene as the view shows it, without the grid and what is written over it, as a PNG. FALSE with a GError.
+ */
+gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GError **error);
 /* How long the last picture took, ms. */
 double spore_viewport_get_draw_ms(SporeViewport *self);
 /* GL_RENDERER, or why nothing is drawn. */
