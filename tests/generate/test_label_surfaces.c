@@ -1,9 +1,10 @@
 /* Surfaces of labels among others: closed, within half a voxel of the voxels by an independent measure, and of few
- * triangles; parts that touch at an edge or a corner; what is refused or cancelled. */
+ * triangles; parts that touch at an edge or a corner; what is refused or cancelled, maps of specks among it. */
 #include <glib.h>
 #include <math.h>
 
 #include "core/generate/labels/labels.h"
+#include "core/generate/labels/private.h"
 
 #define SIDE 26
 
@@ -177,6 +178,53 @@ static void test_refused(void) {
   for (int s = 0; s < 2; s++) spore_triangle_mesh_clear(&surfaces[s].mesh);
 }
 
+/* One voxel of each cube of two; in half of the cases they touch, by corners, those of the cubes around. */
+static void scatter(Map *m, bool touching) {
+  for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
+    const int x = i % SIDE, y = i / SIDE % SIDE, z = i / SIDE / SIDE;
+    if (touching ? (x + y + z) % 2 == 0 : x % 2 == 0 && y % 2 == 0 && z % 2 == 0) put(m, x, y, z, 3);
+  }
+}
+
+/* Specks are refused where they are far more than the cells and most of what there is; not beside a larger organ, not
+ * where they hang together by corners, and not where cells are as small. */
+static void test_specks(void) {
+  static const struct {
+    int organ, touching;
+    size_t cells;
+    double least;
+    bool refused;
+  } cases[] = {{.cells = 100, .least = 22, .refused = true},
+               {.organ = 20, .cells = 100, .least = 50},
+               {.touching = true, .cells = 100, .least = 88},
+               {.cells = 220, .least = 10},
+               {.cells = 100, .least = 1}};
+  for (gsize c = 0; c < G_N_ELEMENTS(cases); c++) {
+    g_autofree Map *m = new_map(false);
+    g_autofree bool *wanted = g_new0(bool, 65536);
+    SporeError error = SPORE_ERROR_INIT;
+    wanted[3] = wanted[4] = true;
+    scatter(m, cases[c].touching);
+    for (int i = 0; i < cases[c].organ * SIDE * SIDE; i++) m->voxels[i] = 4;
+    g_assert_cmpint(spore_label_check_specks(&m->map, wanted, cases[c].cells, cases[c].least, NULL, &error), ==,
+                    !cases[c].refused);
+    g_assert_cmpint(error.code, ==, cases[c].refused ? SPORE_ERROR_INPUT : 0);
+    g_assert_true(!cases[c].refused || g_str_has_prefix(error.message, "2197 specks"));
+  }
+}
+
+/* The same by the whole generator. */
+static void test_specks_early(void) {
+  g_autofree Map *m = new_map(false);
+  SporeTetrahedralMesh cells;
+  SporeLabelTetrahedraReport report;
+  g_autoptr(GError) error = NULL;
+  scatter(m, false);
+  g_assert_false(spore_label_tetrahedra("map", &m->map, &(SporeLabelTetrahedraOptions){.cells = 100}, &cells, &report,
+                                        NULL, &error));
+  g_assert_nonnull(strstr(error->message, "specks"));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_data_func("/label-surfaces/organs", GINT_TO_POINTER(false), test_organs);
@@ -184,5 +232,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/label-surfaces/touching", test_touching);
   g_test_add_func("/label-surfaces/whole", test_whole);
   g_test_add_func("/label-surfaces/refused", test_refused);
+  g_test_add_func("/label-surfaces/specks", test_specks);
+  g_test_add_func("/label-surfaces/specks early", test_specks_early);
   return g_test_run();
 }

@@ -37,6 +37,11 @@ int spore_label_add(SporeLabelShare *shares, int count, SporeLabelShare one);
  * number). So nothing does not win where organs meet. */
 uint16_t spore_label_winner(const SporeLabelShare *shares, int count);
 
+/* False with an error: most of the wanted voxels lie in pieces of fewer voxels than `least`, a cell, and there are many
+ * such pieces for each of the cells. Pieces hang together by faces, edges and corners of voxels. */
+bool spore_label_check_specks(const SporeLabelMap *map, const bool *wanted, size_t cells, double least,
+                              const SporeProgress *progress, SporeError *error);
+
 /* Takes a surface from indices of the map to metres; what is outward in indices is outward there, too. */
 void spore_label_surface_place(const SporeLabelMap *map, SporeTriangleMesh *surface);
 

@@ -195,7 +195,7 @@ static bool measure(const Meshing *m, const SporeTetrahedralMesh *mesh, SporeLab
   return true;
 }
 
-static bool check(Meshing *m, const SporeLabelMap *map, SporeError *error) {
+static bool check(Meshing *m, const SporeLabelMap *map, const SporeProgress *progress, SporeError *error) {
   const SporeLabelTetrahedraOptions *options = m->options;
   if (!options->cells && !(options->size > 0 && isfinite(options->size)))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
@@ -212,7 +212,8 @@ static bool check(Meshing *m, const SporeLabelMap *map, SporeError *error) {
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("that makes about %.0f cells; expected at most %u; ask for fewer or larger ones"), cells,
                            MOST_CELLS);
-  return true;
+  double voxels = m->volume / spore_label_map_voxel_volume(map);
+  return spore_label_check_specks(map, m->wanted, (size_t)ceil(cells), voxels / fmax(cells, 1), progress, error);
 }
 
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
@@ -225,10 +226,13 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   *report = (SporeLabelTetrahedraReport){0};
   m->options = options;
   m->stage.whole = progress;
-  m->stage.share = 0.1;
-  SporeProgress smoothing = spore_progress_of_share(&m->stage);
-  bool done = check(m, map, &failure) && spore_label_field_create(&m->field, map, m->wanted, &smoothing, &failure);
-  m->stage.done = m->stage.share;
+  m->stage.share = 0.02;
+  SporeProgress part = spore_progress_of_share(&m->stage);
+  bool done = check(m, map, &part, &failure);
+  m->stage.done = m->stage.share, m->stage.share = 0.1;
+  part = spore_progress_of_share(&m->stage);
+  done = done && spore_label_field_create(&m->field, map, m->wanted, &part, &failure);
+  m->stage.done += m->stage.share;
   done = done && make_cells(m, result, &failure);
   if (done && !result->tetrahedron_count)
     done = spore_error_set(&failure, SPORE_ERROR_INPUT, NULL,
@@ -236,12 +240,12 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
                              "more or smaller cells"));
   SporeLabelPoints points = {0};
   done = done && fit(m, result, &points, &failure);
-  SporeProgress fitting = spore_progress_of_share(&m->stage);
+  part = spore_progress_of_share(&m->stage);
   m->stage.share = 1 - m->stage.done;
   done = done &&
          (!options->cells ||
           spore_label_coarsen(result, &points, options->cells, cbrt(m->volume / (CELL * (double)options->cells)),
-                              m->volumes, &fitting, &failure)) &&
+                              m->volumes, &part, &failure)) &&
          spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);
   spore_label_points_clear(&points);
   spore_label_field_clear(&m->field);
