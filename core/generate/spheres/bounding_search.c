@@ -7,6 +7,7 @@
 #include "core/generate/spheres/kernels.h"
 
 #define BINS 48          /* number of radii that are compared */
+#define TABLES 4         /* of sums by radius: points next to each other often add to the same sum */
 #define SETTLE_TRIES 6   /* places tried for a ball in a sweep */
 #define HARD_TRIES 12    /* the same where all must be covered */
 #define LOOK_WORK 100    /* fixed work of a search around a ball */
@@ -18,11 +19,6 @@
 #define STEP_LEAST 1e-3  /* of a radius */
 #define STEP_MOST 0.3
 #define ROUNDING 1e-6f /* of a distance in single precision */
-
-static double cost_of_point(const SporeBoundingSearch *search, size_t point) {
-  double volume = search->costs.volume[point];
-  return volume < 0 ? volume * search->cost : volume;
-}
 
 static double square_distance(const SporePoints *points, size_t k, SporeVec3 c) {
   double dx = points->x[k] - c.x, dy = points->y[k] - c.y, dz = points->z[k] - c.z;
@@ -40,21 +36,21 @@ static bool within(const double bound[4], SporeVec3 c, double radius) {
 }
 
 void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius) {
-  const SporePoints *points = &search->costs.points;
+  const SporePoints points = search->costs.points;
   double inner2 = inner > 0 ? inner * inner : 0, at[3] = {c.x, c.y, c.z};
-  size_t count = 0;
-  for (size_t g = 0; g < points->group_count; g++) {
-    if (!reaches(points->group + 4 * g, c, radius) || within(points->group + 4 * g, c, inner)) continue;
-    size_t end = (g + 1) * SPORE_GROUP < points->block_count ? (g + 1) * SPORE_GROUP : points->block_count;
+  uint32_t *end_reached = search->reached;
+  for (size_t g = 0; g < points.group_count; g++) {
+    if (!reaches(points.group + 4 * g, c, radius) || within(points.group + 4 * g, c, inner)) continue;
+    size_t end = (g + 1) * SPORE_GROUP < points.block_count ? (g + 1) * SPORE_GROUP : points.block_count;
     for (size_t b = g * SPORE_GROUP; b < end; b++) {
-      if (!reaches(points->block + 4 * b, c, radius) || within(points->block + 4 * b, c, inner)) continue;
+      if (!reaches(points.block + 4 * b, c, radius) || within(points.block + 4 * b, c, inner)) continue;
       size_t first = b * SPORE_BLOCK;
-      uint32_t bits = SPORE_KERNEL(spore_block_between)(points->x + first, points->y + first, points->z + first, at,
+      uint32_t bits = SPORE_KERNEL(spore_block_between)(points.x + first, points.y + first, points.z + first, at,
                                                         inner2, radius * radius);
-      for (; bits; bits &= bits - 1) search->reached[count++] = (uint32_t)(first + (size_t)__builtin_ctz(bits));
+      for (; bits; bits &= bits - 1) *end_reached++ = (uint32_t)(first + (size_t)__builtin_ctz(bits));
     }
   }
-  search->reached_count = count;
+  search->reached_count = (size_t)(end_reached - search->reached);
 }
 
 static void add_local(SporeBoundingLocal *local, double x, double y, double z, double cost) {
@@ -70,20 +66,25 @@ static void pad_local(SporeBoundingLocal *local) {
 /* Collects the reached points that a ball near c could be the only one to contain. `radius`: of the ball at c that
  * `held` counts now; 0: there is none. */
 static void find_local(SporeBoundingSearch *search, SporeVec3 c, double radius) {
-  const SporePoints *points = &search->costs.points;
-  SporeBoundingLocal *local = &search->local;
-  double r2 = radius > 0 ? radius * radius : -1;
-  bool hard = search->cost >= SPORE_BOUNDING_HARD;
-  local->count = 0;
-  for (size_t m = 0; m < search->reached_count; m++) {
-    size_t k = search->reached[m];
-    unsigned held = search->costs.held[k];
-    double cost = held > 1 ? 0 : cost_of_point(search, k);
-    if (held == 1 && square_distance(points, k, c) > r2) cost = 0;
-    if (hard && (held == 0 || cost > 0)) cost = 0; /* uncovered points are covered one by one: spore_bounding_cover */
-    if (cost != 0) add_local(local, points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z, cost);
+  const SporePoints points = search->costs.points;
+  SporeBoundingLocal local = search->local; /* copies: what is stored could alias the originals */
+  const uint16_t *held = search->costs.held;
+  const double *volume = search->costs.volume;
+  double r2 = radius > 0 ? radius * radius : -1, uncovered = search->cost;
+  bool hard = uncovered >= SPORE_BOUNDING_HARD;
+  size_t count = 0;
+  for (const uint32_t *k = search->reached; k < search->reached + search->reached_count; k++) {
+    if (held[*k] > 1) continue;
+    double cost = volume[*k] < 0 ? volume[*k] * uncovered : volume[*k];
+    if (hard && (held[*k] == 0 || cost > 0))
+      continue; /* uncovered points are covered one by one: spore_bounding_cover */
+    double dx = points.x[*k] - c.x, dy = points.y[*k] - c.y, dz = points.z[*k] - c.z;
+    if (cost == 0 || (held[*k] == 1 && dx * dx + dy * dy + dz * dz > r2)) continue;
+    local.x[count] = (float)dx, local.y[count] = (float)dy, local.z[count] = (float)dz;
+    local.cost[count++] = (float)cost;
   }
-  pad_local(local);
+  search->local.count = count;
+  pad_local(&search->local);
 }
 
 /* Distances of the local points from `at`, in the local coordinates. */
@@ -110,17 +111,14 @@ static double needed_radius(const SporeBoundingLocal *local, double least) {
 
 /* About the radius of least cost between least and most, reduced to just contain the inside points within it. */
 static double best_radius(const SporeBoundingLocal *local, double least, double most) {
-  double sum[BINS + 1] = {0}, width = (most - least) / (BINS - 1);
-  float scale = (float)(1 / width), first = (float)least;
-  for (size_t k = 0; k < local->count; k++) {
-    float at = (local->distance[k] - first) * scale;
-    size_t bin = at <= 0 ? 0 : at >= BINS - 1 ? BINS : (size_t)at + 1;
-    sum[bin] += (double)local->cost[k];
-  }
+  double sums[TABLES][BINS + 1] = {{0}}, width = (most - least) / (BINS - 1);
+  SPORE_KERNEL(spore_local_bins)
+  (local->distance, local->count, (float)least, (float)(1 / width), BINS, local->bin);
+  for (size_t k = 0; k < local->count; k++) sums[k % TABLES][local->bin[k]] += (double)local->cost[k];
   double cost = 0, best = HUGE_VAL, farthest;
   int at = 0;
   for (int bin = 0; bin < BINS; bin++) {
-    cost += sum[bin];
+    for (int t = 0; t < TABLES; t++) cost += sums[t][bin];
     if (cost < best) best = cost, at = bin;
   }
   local_cost(local, fmin(least + at * width, most), &farthest);
@@ -187,10 +185,11 @@ static Place look_around(SporeBoundingSearch *search, size_t i, double *scale, i
 
 /* Adds `by` to `held` of the reached points in the ball: 1 when the ball is inserted, -1 when removed. */
 static void hold_reached(SporeBoundingSearch *search, SporeVec3 c, double radius, int by) {
-  for (size_t m = 0; m < search->reached_count; m++) {
-    size_t k = search->reached[m];
-    if (square_distance(&search->costs.points, k, c) <= radius * radius)
-      search->costs.held[k] = (uint16_t)(search->costs.held[k] + by);
+  const SporePoints points = search->costs.points;
+  uint16_t *held = search->costs.held;
+  for (const uint32_t *k = search->reached; k < search->reached + search->reached_count; k++) {
+    bool in = square_distance(&points, *k, c) <= radius * radius;
+    held[*k] = (uint16_t)(held[*k] + in * by);
   }
 }
 
@@ -267,13 +266,14 @@ SporeVec3 spore_bounding_confine(const SporeBoundingSearch *search, size_t i, Sp
 bool spore_bounding_open(SporeBoundingSearch *search) {
   size_t most = search->costs.points.block_count * SPORE_BLOCK + 2 * SPORE_LOCAL_LANES;
   float *memory = SPORE_NEW_ARRAY(float, 5 * most);
+  int32_t *bin = SPORE_NEW_ARRAY(int32_t, most);
   search->reached = SPORE_NEW_ARRAY(uint32_t, most);
   search->step = SPORE_NEW_ARRAY(double, search->balls->count);
-  search->local = (SporeBoundingLocal){0};
+  search->local = (SporeBoundingLocal){.bin = bin};
   if (memory)
     search->local =
-        (SporeBoundingLocal){0, memory, memory + most, memory + 2 * most, memory + 3 * most, memory + 4 * most};
-  if (!memory || !search->reached || !search->step) return false;
+        (SporeBoundingLocal){0, memory, memory + most, memory + 2 * most, memory + 3 * most, memory + 4 * most, bin};
+  if (!memory || !bin || !search->reached || !search->step) return false;
   for (size_t i = 0; i < search->balls->count; i++) {
     SporeVec3 c = spore_balls_centre(search->balls, i);
     spore_bounding_reach(search, c, 0, search->balls->r[i]);
@@ -288,6 +288,7 @@ void spore_bounding_close(SporeBoundingSearch *search) {
   spore_free(search->reached);
   spore_free(search->step);
   spore_free(search->local.x);
+  spore_free(search->local.bin);
   spore_bounding_shell_clear(&search->shell);
   search->reached = NULL;
   search->step = NULL;

@@ -12,6 +12,7 @@ typedef struct SporeBoundingLocal {
   size_t count;
   float *x, *y, *z, *distance; /* m; scratch */
   float *cost;                 /* above 0: of containing the point; below 0: of leaving it uncovered; 0: padding */
+  int32_t *bin;                /* scratch */
 } SporeBoundingLocal;
 
 #define SPORE_BOUNDING_RAYS 256

@@ -64,10 +64,11 @@ void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *cost
   float outside[LANES] = {0}, inside[LANES] = {0}, farthest[LANES] = {0};
   for (size_t first = 0; first < count; first += LANES)
     for (int k = 0; k < LANES; k++) {
-      float d = distance[first + k], p = d <= radius ? cost[first + k] : 0;
-      float needed = p < 0 ? d : 0;
-      outside[k] += p > 0 ? p : 0;
-      inside[k] += p < 0 ? p : 0;
+      float d = distance[first + k], c = cost[first + k]; /* factors of 0 or 1 instead of branches: lanes alike */
+      int within = d <= radius;
+      outside[k] += c * (float)(within & (c > 0));
+      inside[k] += c * (float)(within & (c < 0));
+      float needed = d * (float)(within & (c < 0));
       farthest[k] = needed > farthest[k] ? needed : farthest[k];
     }
   *sum = (SporeLocalCost){0};
@@ -75,6 +76,17 @@ void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *cost
     sum->outside += outside[k];
     sum->inside += inside[k];
     sum->farthest = farthest[k] > sum->farthest ? farthest[k] : sum->farthest;
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_local_bins)(const float *distance, size_t count, float first, float scale, int bins,
+                                        int32_t *restrict bin) {
+  float most = (float)bins;
+  size_t whole = (count + LANES - 1) / LANES * LANES;
+  for (size_t k = 0; k < whole; k++) {
+    float at = (distance[k] - first) * scale + 1;
+    at = at < most ? at : most;
+    bin[k] = (int32_t)(0.5f * (at + fabsf(at))); /* 0 below 0, without a branch */
   }
 }
 

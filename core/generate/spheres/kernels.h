@@ -40,6 +40,11 @@ typedef struct SporeLocalCost {
 SPORE_DECLARE_KERNEL(void, spore_local_cost, const float *distance, const float *cost, size_t count, float radius,
                      SporeLocalCost *sum);
 
+/* bin[k]: 0 where distance[k] is below `first`, from there on one more for each 1 / scale, `bins` at most. count is
+ * rounded up to whole lanes. */
+SPORE_DECLARE_KERNEL(void, spore_local_bins, const float *distance, size_t count, float first, float scale, int bins,
+                     int32_t *bin);
+
 /* A block of depth samples and the balls that reach it, as columns, relative to the block's middle. Lengths in any
  * unit. */
 typedef struct SporeWeightedBlock {
