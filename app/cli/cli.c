@@ -45,10 +45,10 @@ static void on_signal(int number) {
   interrupted = number;
 }
 
-/* Files are written to the end: only then is none left half-written. */
+/* A file that is being written is written to the end, and then taken back with all that do not stand yet. */
 static void on_grace(int number) {
-  if (spore_file_batch_is_open()) end_after(AGAIN_NS);
-  else _exit(SPORE_EXIT_INTERRUPTED);
+  if (spore_file_batches_end()) _exit(SPORE_EXIT_INTERRUPTED);
+  end_after(AGAIN_NS);
 }
 
 /* The handler of a signal sets a flag. Work that sees the flag ends by itself. What does not look at the flag, such as

@@ -49,10 +49,20 @@ gboolean spore_file_refuse(int fault, const char *place, GError **error) {
 G_LOCK_DEFINE_STATIC(open_batches);
 static SporeFileBatch *open_batches;
 
-gboolean spore_file_batch_is_open(void) { return g_atomic_pointer_get(&open_batches) != NULL; }
+/* A handler of signals meets batches between two pieces of work alone. Atomic. */
+static int at_work;    /* pieces of work under way */
+static gboolean ended; /* no more may begin */
+
+static void begin_work(void) {
+  g_atomic_int_inc(&at_work);
+  while (g_atomic_int_get(&ended)) g_usleep(1000); /* until the program is over, or the handler has looked */
+}
+
+static void end_work(void) { g_atomic_int_add(&at_work, -1); }
 
 SporeFileBatch *spore_file_batch_new(void) {
   SporeFileBatch *batch = g_new0(SporeFileBatch, 1);
+  begin_work();
   batch->entries = g_ptr_array_new();
   batch->folders = g_array_new(FALSE, FALSE, sizeof(int));
   batch->made = g_array_new(FALSE, FALSE, sizeof(MadeFolder));
@@ -60,6 +70,7 @@ SporeFileBatch *spore_file_batch_new(void) {
   batch->next = open_batches;
   open_batches = batch;
   G_UNLOCK(open_batches);
+  end_work();
   return batch;
 }
 
@@ -86,13 +97,25 @@ void spore_file_batches_withdraw(void) {
   for (SporeFileBatch *batch = open_batches; batch; batch = batch->next) withdraw(batch);
 }
 
+gboolean spore_file_batches_end(void) {
+  g_atomic_int_set(&ended, TRUE);
+  if (g_atomic_int_get(&at_work) > 0) {
+    g_atomic_int_set(&ended, FALSE);
+    return FALSE;
+  }
+  spore_file_batches_withdraw();
+  return TRUE;
+}
+
 void spore_file_batch_free(SporeFileBatch *batch) {
+  begin_work();
   withdraw(batch);
   G_LOCK(open_batches);
   SporeFileBatch **link = &open_batches;
   while (*link != batch) link = &(*link)->next;
   *link = batch->next;
   G_UNLOCK(open_batches);
+  end_work();
   for (guint i = 0; i < batch->entries->len; i++) {
     Entry *entry = g_ptr_array_index(batch->entries, i);
     g_free(entry->temporary), g_free(entry->name), g_free(entry->place);
@@ -170,8 +193,8 @@ static int write_temporary(const Entry *entry, const void *content, gsize size) 
   return fault;
 }
 
-gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
-                              const void *content, gsize size, GError **error) {
+static gboolean add(SporeFileBatch *batch, int directory, const char *place, const char *name, const void *content,
+                    gsize size, GError **error) {
   g_autofree char *path = g_path_get_dirname(name);
   int folder = keep_folder(batch, directory, path);
   if (folder < 0) return spore_file_refuse(errno, place, error);
@@ -183,6 +206,14 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
   g_ptr_array_add(batch->entries, entry);
   int fault = write_temporary(entry, content, size);
   return fault ? spore_file_refuse(fault, place, error) : TRUE;
+}
+
+gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
+                              const void *content, gsize size, GError **error) {
+  begin_work();
+  gboolean added = add(batch, directory, place, name, content, size, error);
+  end_work();
+  return added;
 }
 
 char *spore_file_target(const char *file) {
@@ -227,7 +258,7 @@ static int rename_entry(Entry *entry) {
   return 0;
 }
 
-gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
+static gboolean commit(SporeFileBatch *batch, GError **error) {
   int fault = 0;
   guint renamed = 0;
   while (!fault && renamed < batch->entries->len) fault = rename_entry(g_ptr_array_index(batch->entries, renamed++));
@@ -237,4 +268,11 @@ gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
   if (!fault) return TRUE;
   for (guint i = renamed; i > 0; i--) take_back(g_ptr_array_index(batch->entries, i - 1));
   return spore_file_refuse(fault, ((Entry *)g_ptr_array_index(batch->entries, renamed - 1))->place, error);
+}
+
+gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
+  begin_work();
+  gboolean committed = commit(batch, error);
+  end_work();
+  return committed;
 }

@@ -10,8 +10,6 @@
 typedef struct SporeFileBatch SporeFileBatch;
 
 SporeFileBatch *spore_file_batch_new(void);
-/* Whether some batch is not freed yet, so that there may be temporary files. May be called by a handler of signals. */
-gboolean spore_file_batch_is_open(void);
 
 /* Says why the file cannot be written: `fault` is an errno. Returns FALSE. */
 gboolean spore_file_refuse(int fault, const char *place, GError **error);
@@ -20,6 +18,9 @@ void spore_file_batch_free(SporeFileBatch *batch);
 /* Takes back what was not committed in all batches, without freeing anything: for a program that ends at once, perhaps
  * for want of memory. */
 void spore_file_batches_withdraw(void);
+/* The same for a handler of signals: FALSE where a batch is at work just now, and nothing was taken back; try again
+ * soon. TRUE: no batch does any work from now on; end the program. */
+gboolean spore_file_batches_end(void);
 
 /* Adds a file `name` below the open folder `directory`. The name is a relative path; missing folders are made, and no
  * name leads out of `directory`. An existing file's permissions are kept. `place` begins the message of a failure. */

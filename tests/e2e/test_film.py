@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import picture_files
@@ -145,6 +146,19 @@ def what_cannot_be_written_leaves_the_old():
         said = process.communicate(timeout=60)[1]
         assert process.returncode == 130 and b"Sanitizer" not in said, (process.returncode, said)
         assert os.listdir(folder) == [name] and (folder / name).read_bytes() == b"old", os.listdir(folder)
+
+
+@check
+def a_row_of_large_pictures_ends_at_once():
+    """Ctrl-C while a large picture is drawn takes back those of the row that wait to be renamed"""
+    folder = WORK / "large"
+    folder.mkdir()
+    process = subprocess.Popen([SPORE, "render", "ball.spore", "-o", folder / "p-%d.png", "--size", "1600x1200"], cwd=WORK,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and not any(folder.iterdir()):
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(60) == 130 and not any(folder.iterdir()), (process.returncode, os.listdir(folder))
 
 
 if __name__ == "__main__":
