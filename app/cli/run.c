@@ -222,7 +222,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
           "done, times the mean mark), passed, steps (name, kind, phase, done_s once it is done, early: how often its "
           "event came before its turn, hint), metrics (name, kind, value, unit, where it is graded good, pass and "
           "mark: "
-          "1 at good, .5 at pass, verdict, source). The exit status does not depend on it")},
+          "1 at good, .5 at pass, verdict, source). Where less is better, the mark is 0 and the verdict unfinished or "
+          "fail until all steps are done. The exit status does not depend on it")},
       {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
                      "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
                      "deep_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "

@@ -127,15 +127,21 @@ static gboolean is_fluid(const SporeObject *body) {
   return model && spore_object_type(model)->model->particles;
 }
 
+static gboolean fits(const SporeMetricKind *kind, const SporeObject *body) {
+  const SporeObject *model = spore_body_model_object(body);
+  if (kind->needs_strain) return model && spore_object_type(model)->model->strain;
+  return !kind->needs_fluid || is_fluid(body);
+}
+
 /* `wanted` where it is of the right kind, else the first body of the scene that is, where the metric means nothing
  * without one. */
 static const SporeObject *find_body(SporeDocument *document, const SporeMetricKind *kind, const SporeObject *wanted) {
   const SporeObject *bodies = spore_document_section(document, "bodies");
-  if (wanted && (!kind->needs_fluid || is_fluid(wanted))) return wanted;
+  if (wanted && fits(kind, wanted)) return wanted;
   if (!kind->needs_body) return NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     const SporeObject *body = spore_object_child(bodies, i);
-    if (!kind->needs_fluid || is_fluid(body)) return body;
+    if (fits(kind, body)) return body;
   }
   return NULL;
 }
@@ -148,6 +154,11 @@ static gboolean write_subject(SporeDocument *document, SporeObject *metric, cons
   const SporeObject *camera = kind->needs_view ? find_tool(document, parameter_of(type, "camera")) : NULL;
   if (kind->needs_fluid && !body)
     return refuse(type, _("the scene has no fluid; expected a body of particles; add one first"), error);
+  if (kind->needs_strain && !body)
+    return refuse(type,
+                  _("the scene has no tissue whose strain is known; expected a net, a deformable surface, a spline, "
+                    "an intestine or nonlinear tetrahedra; add one first"),
+                  error);
   if (kind->needs_body && !body) return refuse(type, _("the scene has no body; expected one; add it first"), error);
   if (kind->needs_view && !camera) return refuse(type, _("the scene has no camera; expected one; add it first"), error);
   return (!body || spore_document_set_text(document, metric, "body", spore_object_name(body), error)) &&

@@ -180,14 +180,18 @@ static void plot_steps(GString *text, const SporeExercise *exercise, const Spore
 
 /* The mark of each metric, 0 to 1. */
 static void plot_metrics(GString *text, const SporeExercise *exercise, const SporeExerciseState *state) {
-  static const char *const colours[SPORE_METRIC_VERDICTS] = {"#bbbbbb", "#228833", "#ccbb44", "#cc3311"};
+  static const char *const colours[SPORE_METRIC_VERDICTS] = {"#bbbbbb", "#228833", "#ccbb44", "#cc3311", "#bbbbbb"};
   begin_plot(text, _("Marks"), state->metrics);
   for (gsize i = 0; i < state->metrics; i++) {
     SporeMetricState metric = spore_exercise_metric_state(exercise, i);
     begin_row(text, i, metric.name);
     if (metric.verdict == SPORE_METRIC_NONE) continue;
     add_bar(text, i, metric.mark, colours[metric.verdict]);
-    g_string_append_printf(text, "<text x=\"%g\" y=\"%g\">%.2f</text>", WIDTH + 6, ROW * (double)i + 16, metric.mark);
+    g_autofree char *mark =
+        metric.verdict == SPORE_METRIC_UNFINISHED ? g_strdup(_("not finished")) : g_strdup_printf("%.2f", metric.mark);
+    g_string_append_printf(text, "<text x=\"%g\" y=\"%g\">", WIDTH + 6, ROW * (double)i + 16);
+    add_escaped(text, mark);
+    g_string_append(text, "</text>");
   }
   g_string_append(text, "</svg>\n");
 }

@@ -278,6 +278,10 @@ struct SporeModelType {
   /* Drops what evaluations leave behind to make the next one quicker: the state was set from outside, and what follows
    * from it must not depend on what was before. */
   void (*forget)(SporeModel *model);
+  /* The largest strain at q: by which part of its length at rest an element, a spring or a piece of a line is longer,
+   * at most; below 0 where all are shorter. Allocates nothing; the same bits on every processor. NULL: none is known.
+   */
+  double (*strain)(const SporeModel *model, const double *q);
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none, where map
    * takes them; of particles one at each node, in their order. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);

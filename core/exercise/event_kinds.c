@@ -206,7 +206,7 @@ static bool passes(Exercise exercise, SporeStepRun *step, const SporeWorld *worl
 static const SporeParameter passed_rows[] = {
     NAMED,
     SPORE_ROW_REFERENCE(SporeEventFields, tool, tool, SPORE_INSTRUMENT_ELEMENTS,
-                        N_("Instrument whose first body has to get there, where no body is named.")),
+                        N_("Instrument whose tip has to get there, where no body is named.")),
     BODY_OR_TOOL,
     SPORE_ROW_PLACE(SporeEventFields, point, N_("Middle of the ring.")),
     SPORE_ROW_DIRECTION(SporeEventFields, direction, 1, 0, 0, N_("Which way through the ring.")),
@@ -225,7 +225,7 @@ static bool is_reached(Exercise exercise, SporeStepRun *step, const SporeWorld *
 static const SporeParameter reached_rows[] = {
     NAMED,
     SPORE_ROW_REFERENCE(SporeEventFields, tool, tool, SPORE_INSTRUMENT_ELEMENTS,
-                        N_("Instrument whose first body has to get there, where no body is named.")),
+                        N_("Instrument whose tip has to get there, where no body is named.")),
     BODY_OR_TOOL,
     SPORE_ROW_PLACE(SporeEventFields, point, N_("Place to reach.")),
     SPORE_ROW_REAL(SporeEventFields, radius, "m", 1e-6, 10, 0.01, N_("How near it has to come.")),

@@ -345,7 +345,7 @@ void spore_exercise_watch(SporeExercise *exercise, const SporeWorld *world) {
 
 const char *const spore_exercise_phase_names[SPORE_EXERCISE_PHASES] = {"running", "done", "out_of_time"};
 const char *const spore_step_phase_names[SPORE_STEP_PHASES] = {"waiting", "open", "done"};
-const char *const spore_metric_verdict_names[SPORE_METRIC_VERDICTS] = {"none", "good", "pass", "fail"};
+const char *const spore_metric_verdict_names[SPORE_METRIC_VERDICTS] = {"none", "good", "pass", "fail", "unfinished"};
 
 SporeStepState spore_exercise_step_state(const SporeExercise *exercise, size_t index) {
   assert(index < exercise->step_count);
@@ -380,9 +380,13 @@ SporeMetricState spore_exercise_metric_state(const SporeExercise *exercise, size
                             .mark = NAN};
   if (isnan(state.good) && isnan(state.pass)) return state;
   double sign = kind->more_is_better ? -1 : 1, value = sign * state.value;
-  state.mark = mark_of(value, sign * state.good, sign * state.pass);
+  bool whole = kind->more_is_better || exercise->steps_done == exercise->step_count;
+  state.mark = whole ? mark_of(value, sign * state.good, sign * state.pass) : 0;
   bool good = value <= sign * state.good, pass = value <= sign * (isnan(state.pass) ? state.good : state.pass);
-  state.verdict = good ? SPORE_METRIC_GOOD : pass ? SPORE_METRIC_PASS : SPORE_METRIC_FAIL;
+  state.verdict = !good && !pass ? SPORE_METRIC_FAIL
+                  : !whole       ? SPORE_METRIC_UNFINISHED
+                  : good         ? SPORE_METRIC_GOOD
+                                 : SPORE_METRIC_PASS;
   return state;
 }
 

@@ -112,6 +112,7 @@ typedef enum SporeMetricVerdict {
   SPORE_METRIC_GOOD,
   SPORE_METRIC_PASS,
   SPORE_METRIC_FAIL,
+  SPORE_METRIC_UNFINISHED, /* less is better, and it grows until all steps are done: it is not worse than pass so far */
   SPORE_METRIC_VERDICTS
 } SporeMetricVerdict;
 extern const char *const spore_metric_verdict_names[SPORE_METRIC_VERDICTS]; /* "none", ... */
@@ -132,7 +133,7 @@ typedef struct SporeMetricState {
   const char *unit;         /* of value, good and pass */
   double value, good, pass; /* NAN: not measured; not given */
   /* 1 at `good` and better, .5 at `pass`, a straight line between, and the same line on to 0. With one threshold: 1 or
-   * 0. NAN: there is no threshold. */
+   * 0. 0 until all steps are done, where less is better: who did nothing took no time. NAN: there is no threshold. */
   double mark;
   SporeMetricVerdict verdict;
 } SporeMetricState;

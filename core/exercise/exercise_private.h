@@ -62,7 +62,7 @@ struct SporeExercise {
 };
 
 /* places.c */
-/* The point of an instrument: the origin of its first body, m. */
+/* The point of an instrument, m: the tip of its tool, or the origin of the body of what only touches. */
 SporeVec3 spore_instrument_point(const SporeExercise *exercise, const SporeWorld *world, uint32_t instrument);
 /* The mean of the body's nodes that are in the world, or the origin of its frame, m. */
 SporeVec3 spore_body_middle(const SporeWorld *world, uint32_t body);

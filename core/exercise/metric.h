@@ -13,6 +13,7 @@ typedef struct SporeMetricFields {
   double speed;            /* m/s: slower is at rest */
   double force;            /* N: more is too much */
   double density;          /* kg/m^3, of a fluid */
+  double strain;           /* part of the length at rest: more is too much */
 } SporeMetricFields;
 
 /* A unit in which a threshold may be given. */
@@ -31,7 +32,7 @@ typedef struct SporeMetricKind {
   const char *doc;                           /* one sentence, translatable */
   SporeParameterTable parameters;            /* of SporeMetricFields */
   SporeMetricUnit units[SPORE_METRIC_UNITS]; /* its own first; name "": a number without unit; NULL: no more */
-  bool more_is_better, needs_body, needs_fluid, needs_view;
+  bool more_is_better, needs_body, needs_fluid, needs_strain, needs_view;
   bool traces; /* it follows instruments */
   /* Adds what the last step did. NULL: value says all. h: s since the last look. */
   void (*look)(const struct SporeExercise *exercise, struct SporeMetricRun *metric, const SporeWorld *world, double h);

@@ -70,7 +70,7 @@ static double sum_paths(Exercise exercise, Metric metric) {
 static const SporeParameter path_rows[] = {GRADED, TOOL};
 static const SporeMetricKind path_length = {.element = "path_length",
                                             .label = N_("Path length"),
-                                            .doc = N_("How far instruments travel."),
+                                            .doc = N_("How far the tips of instruments travel."),
                                             .parameters = SPORE_TABLE(path_rows, SporeMetricFields),
                                             .units = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}},
                                             .traces = true,
@@ -314,6 +314,60 @@ static const SporeMetricKind blood_lost = {
     .look = look_for_blood,
     .value = sum_of};
 
+static void add_strain(Exercise exercise, SporeMetricRun *metric, const SporeWorld *world, double h) {
+  (void)exercise;
+  const SporeModel *model = spore_world_body_model(world, metric->from.body);
+  if (!model->type->strain) return; /* its level of detail knows none */
+  double strain = model->type->strain(model, spore_world_q(world, metric->from.body));
+  metric->peak = fmax(metric->peak, strain);
+  metric->sum += h * fmax(strain, 0);
+  metric->time += strain > metric->from.fields.strain ? h : 0;
+}
+
+#define STRAINED SPORE_ROW_BODY(SporeMetricFields, body, body, N_("Tissue that is strained."))
+#define RATIOS .units = {{"", 1}, {"%", 1e-2}}
+
+static const SporeParameter peak_strain_rows[] = {GRADED, STRAINED};
+static const SporeMetricKind peak_strain = {
+    .element = "peak_strain",
+    .label = N_("Peak strain"),
+    .doc = N_("Largest strain of a body's elements, springs or pieces of line: by which part they are longer than at "
+              "rest."),
+    .parameters = SPORE_TABLE(peak_strain_rows, SporeMetricFields),
+    RATIOS,
+    .needs_body = true,
+    .needs_strain = true,
+    .look = add_strain,
+    .value = peak_of};
+
+static double strain_of_time(Exercise exercise, Metric metric) {
+  return exercise->time_s > 0 ? metric->sum / exercise->time_s : 0;
+}
+static const SporeParameter mean_strain_rows[] = {GRADED, STRAINED};
+static const SporeMetricKind mean_strain = {
+    .element = "mean_strain",
+    .label = N_("Mean strain"),
+    .doc = N_("Mean over the time of a body's largest strain; 0 counts while nothing is longer than at rest."),
+    .parameters = SPORE_TABLE(mean_strain_rows, SporeMetricFields),
+    RATIOS,
+    .needs_body = true,
+    .needs_strain = true,
+    .look = add_strain,
+    .value = strain_of_time};
+
+static const SporeParameter excess_strain_rows[] = {
+    GRADED, STRAINED,
+    SPORE_ROW_REAL(SporeMetricFields, strain, "", 0, 1e6, 0.5, N_("Strain above which time counts."))};
+static const SporeMetricKind excess_strain = {.element = "excess_strain",
+                                              .label = N_("Time of excess strain"),
+                                              .doc = N_("How long a body was somewhere strained by more than a limit."),
+                                              .parameters = SPORE_TABLE(excess_strain_rows, SporeMetricFields),
+                                              SECONDS,
+                                              .needs_body = true,
+                                              .needs_strain = true,
+                                              .look = add_strain,
+                                              .value = seconds_of};
+
 static void add_unseen(Exercise exercise, SporeMetricRun *metric, const SporeWorld *world, double h) {
   bool seen = true;
   for (uint32_t i = 0; i < exercise->instrument_count; i++)
@@ -326,8 +380,8 @@ static const SporeParameter unseen_rows[] = {
 static const SporeMetricKind out_of_view = {
     .element = "out_of_view",
     .label = N_("Out of view"),
-    .doc = N_("How long the origin of an instrument's first body was outside what the camera sees, as wide as it is "
-              "high; without a tool, that of any."),
+    .doc = N_("How long the tip of an instrument was outside what the camera sees, as wide as it is high; without a "
+              "tool, that of any."),
     .parameters = SPORE_TABLE(unseen_rows, SporeMetricFields),
     SECONDS,
     .needs_view = true,
@@ -406,8 +460,9 @@ static const SporeMetricKind errors = {.element = "errors",
                                        .value = errors_of};
 
 const SporeMetricKind *const spore_metric_kinds[] = {
-    &time_taken, &path_length,  &economy,    &smoothness,  &movements, &collisions, &peak_force,
-    &mean_force, &excess_force, &blood_lost, &out_of_view, &drops,     &errors,     NULL};
+    &time_taken, &path_length, &economy,      &smoothness,  &movements,   &collisions,
+    &peak_force, &mean_force,  &excess_force, &peak_strain, &mean_strain, &excess_strain,
+    &blood_lost, &out_of_view, &drops,        &errors,      NULL};
 
 const SporeMetricKind *spore_metric_kind_find(const char *element) {
   assert(element);

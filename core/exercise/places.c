@@ -7,7 +7,9 @@
 
 SporeVec3 spore_instrument_point(const SporeExercise *exercise, const SporeWorld *world, uint32_t instrument) {
   assert(instrument < exercise->instrument_count);
-  return spore_vec3_load(spore_world_q(world, exercise->instruments[instrument].bodies[0]));
+  const SporeInstrument *at = &exercise->instruments[instrument];
+  if (at->tool != SPORE_NO_PART) return spore_world_tool_tip(world, at->tool);
+  return spore_vec3_load(spore_world_q(world, at->bodies[0]));
 }
 
 /* Nodes of a body, 3 doubles each. A body without a model is the origin of its frame. Spare nodes are none. */

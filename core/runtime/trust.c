@@ -206,9 +206,19 @@ static bool trust_step(const SporeExerciseDescription *exercise, size_t i, Spore
   return true;
 }
 
+/* NULL: the body has no model. */
+static const SporeModelType *model_type(const SporeRuntimeScene *scene, uint32_t body) {
+  return scene->recipes[SPORE_LOD_COUNT * (size_t)body + SPORE_LOD_FINE].type;
+}
+
 static bool is_fluid(const SporeRuntimeScene *scene, uint32_t body) {
-  const SporeModelType *type = scene->recipes[SPORE_LOD_COUNT * (size_t)body + SPORE_LOD_FINE].type;
+  const SporeModelType *type = model_type(scene, body);
   return type && type->particles;
+}
+
+static bool knows_strain(const SporeRuntimeScene *scene, uint32_t body) {
+  const SporeModelType *type = model_type(scene, body);
+  return type && type->strain;
 }
 
 static bool trust_metric(const SporeRuntimeScene *scene, const SporeExerciseMetric *metric, SporeError *error) {
@@ -219,8 +229,9 @@ static bool trust_metric(const SporeRuntimeScene *scene, const SporeExerciseMetr
     return refuse(error, _("a metric names an instrument or a camera that is not there"));
   if ((metric->kind->needs_body && metric->body == SPORE_NO_BODY) ||
       (metric->kind->needs_view && metric->view == SPORE_NO_PART) ||
-      (metric->kind->needs_fluid && !is_fluid(scene, metric->body)))
-    return refuse(error, _("a metric lacks its body, fluid or camera"));
+      (metric->kind->needs_fluid && !is_fluid(scene, metric->body)) ||
+      (metric->kind->needs_strain && !knows_strain(scene, metric->body)))
+    return refuse(error, _("a metric lacks its body, fluid, tissue or camera"));
   return true;
 }
 

@@ -97,10 +97,20 @@ static gboolean add_step(Maker *maker, SporeObject *object, const SporeEventKind
   return TRUE;
 }
 
-static gboolean is_fluid(const SporeCompiler *compiler, guint32 body) {
+/* NULL: the body does not deform, and nothing but contact moves it. */
+static const SporeModelType *model_type(const SporeCompiler *compiler, guint32 body) {
   guint fine = SPORE_LOD_COUNT * body + SPORE_LOD_FINE;
-  const SporeModelType *type = g_array_index(compiler->recipes, SporeModelRecipe, fine).type;
+  return g_array_index(compiler->recipes, SporeModelRecipe, fine).type;
+}
+
+static gboolean is_fluid(const SporeCompiler *compiler, guint32 body) {
+  const SporeModelType *type = model_type(compiler, body);
   return type && type->particles;
+}
+
+static gboolean knows_strain(const SporeCompiler *compiler, guint32 body) {
+  const SporeModelType *type = model_type(compiler, body);
+  return type && type->strain;
 }
 
 static gboolean add_metric(Maker *maker, SporeObject *object, const SporeMetricKind *kind) {
@@ -115,6 +125,11 @@ static gboolean add_metric(Maker *maker, SporeObject *object, const SporeMetricK
   if (kind->needs_fluid && !is_fluid(maker->compiler, metric.body))
     return spore_compiler_refuse(maker->compiler, object,
                                  _("body=\"%s\" is no fluid; expected one of particles; choose another body"),
+                                 metric.fields.body);
+  if (kind->needs_strain && !knows_strain(maker->compiler, metric.body))
+    return spore_compiler_refuse(maker->compiler, object,
+                                 _("body=\"%s\" has no strain that is known; expected a net, a deformable surface, a "
+                                   "spline, an intestine or nonlinear tetrahedra; choose another body"),
                                  metric.fields.body);
   g_array_append_val(maker->metrics, metric);
   return TRUE;

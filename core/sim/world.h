@@ -260,6 +260,9 @@ size_t spore_world_tool_count(const SporeWorld *world);
 const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t tool);
 /* State of a tool, in the order of the description. */
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
+/* Where a tool acts now, m: the end of blades, the tip of a needle, the mouth of suction, the point that heats, or the
+ * middle between the spheres of closed jaws that are farthest from the hinge. */
+SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t tool);
 /* Number of spheres of the body that the tool's jaws hold now. */
 size_t spore_world_tool_holds(const SporeWorld *world, size_t tool, uint32_t body);
 /* What tools have done to a body since time 0, whichever tool it was. */

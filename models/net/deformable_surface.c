@@ -194,6 +194,11 @@ static double potential(const SporeModel *model, const double *q) {
   return sum;
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_deformable_surface);
+  return spore_springs_strain(((const Surface *)model)->springs, KINDS, q);
+}
+
 static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
   assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
@@ -243,6 +248,7 @@ const SporeModelType spore_deformable_surface = {
     .force = force,
     .force_along = force_along,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .skin = skin,
     .pattern = pattern,

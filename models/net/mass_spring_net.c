@@ -166,6 +166,12 @@ static double potential(const SporeModel *model, const double *q) {
   return sum;
 }
 
+/* Bending springs span two edges, and say nothing that edges do not. */
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_mass_spring_net);
+  return spore_springs_strain(((const Net *)model)->springs, BENDING, q);
+}
+
 static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
   assert(model->type == &spore_mass_spring_net);
   const Net *net = (const Net *)model;
@@ -284,6 +290,7 @@ const SporeModelType spore_mass_spring_net = {
     .force = force,
     .force_along = force_along,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .skin = skin,
     .pattern = pattern,

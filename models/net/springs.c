@@ -2,6 +2,7 @@
 #include "models/net/springs.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -277,4 +278,28 @@ void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool
   begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);
   end_lines(&loop);
+}
+
+/* The square of the largest length over its length at rest, among the springs of a group. */
+static double stretch_of_group(const SporeSprings *springs, size_t group, const double *q) {
+  double most = 0;
+  for (size_t slot = springs->slot_start[group]; slot < springs->slot_start[group + 1]; slot++) {
+    for (size_t lane = 0; lane < springs->lanes[group]; lane++) {
+      size_t at = slot * SPORE_LANES + lane, node = springs->node[group * SPORE_LANES + lane];
+      double rest = springs->length[at];
+      SporeVec3 line =
+          spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)springs->neighbour[at]), spore_vec3_load(q + 3 * node));
+      if (rest > 0) most = fmax(most, spore_vec3_dot(line, line) / (rest * rest));
+    }
+  }
+  return most;
+}
+
+double spore_springs_strain(const SporeSprings *springs, size_t kinds, const double *q) {
+  assert(kinds > 0);
+  double most = 0;
+  for (size_t k = 0; k < kinds; k++)
+    for (size_t group = 0; group < springs[k].group_count; group++)
+      most = fmax(most, stretch_of_group(&springs[k], group, q));
+  return sqrt(most) - 1;
 }

@@ -84,6 +84,9 @@ void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool
 /* Whether any is longer by more than this part of its length at rest. */
 SPORE_DECLARE_KERNEL(bool, spore_springs_exceed, const SporeSprings *springs, const double *q, double strain);
 
+/* The largest part by which one is longer than at rest, in any of several kinds; -1 where there are none. */
+double spore_springs_strain(const SporeSprings *springs, size_t kinds, const double *q);
+
 /* springs_cut.c: springs may go, and come back all together. */
 typedef struct SporeSpringsWhole { /* as they were */
   uint32_t *neighbour, *block;

@@ -173,6 +173,11 @@ static double potential(const SporeModel *model, const double *q) {
   return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_virtual_core_potential(&body->root, q);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_intestine);
+  return spore_spline_strain(&((const Intestine *)model)->line.spline, q);
+}
+
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   const Intestine *body = (const Intestine *)model;
   return spore_spline_pattern(&body->line.spline, blocks) && spore_virtual_core_pattern(&body->root, blocks);
@@ -241,6 +246,7 @@ const SporeModelType spore_intestine = {
     .inertia = inertia,
     .force = force,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .samples = samples,
     .pattern = pattern,

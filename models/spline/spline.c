@@ -158,3 +158,18 @@ void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matri
       spline->lower[4 * i + k] = (uint32_t)spore_block_matrix_find(matrix, i + k, i);
     }
 }
+
+double spore_spline_strain(const SporeSpline *spline, const double *q) {
+  assert(spline->span_count > 0);
+  double most = 0;
+  for (size_t span = 0; span < spline->span_count; span++) {
+    for (size_t point = 0; point < SPORE_SPLINE_POINTS; point++) {
+      const SporeSplineGauss *gauss = &spline->gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + point];
+      SporeVec3 a = {0, 0, 0};
+      for (size_t k = 0; k < 4; k++)
+        a = spore_vec3_add_scaled(a, gauss->first[k][span % SPORE_LANES], spore_vec3_load(q + 3 * (span + k)));
+      most = fmax(most, spore_vec3_dot(a, a));
+    }
+  }
+  return sqrt(most) - 1;
+}

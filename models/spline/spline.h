@@ -69,6 +69,9 @@ void spore_spline_map_follow(SporeSplineKnots knots, const double *control, cons
  * counted. NULL: no memory. */
 double *spore_spline_sample(SporeSplineKnots knots, const double *control, size_t more, size_t *count);
 
+/* The largest |a| - 1 of all Gauss points. */
+double spore_spline_strain(const SporeSpline *spline, const double *q);
+
 /* Forces, energy and stiffness as SporeModelType says. Viscous: the speed of |a| and that of |b| across the line, each
  * times viscous and its stiffness; the second fades out where the line is straight, and has no direction to bend in. */
 SPORE_DECLARE_KERNEL(void, spore_spline_force, const SporeSpline *spline, const double *q, const double *shape,

@@ -224,6 +224,11 @@ static double potential(const SporeModel *model, const double *q) {
          spore_spline_twist_potential(twist_now(model), q);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_spline_1d);
+  return spore_spline_strain(&line_now(model)->spline, q);
+}
+
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return spore_spline_pattern(&line_now(model)->spline, blocks) && spore_spline_twist_pattern(twist_now(model), blocks);
 }
@@ -311,6 +316,7 @@ const SporeModelType spore_spline_1d = {
     .place = place,
     .force = force,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .samples = samples,
     .pattern = pattern,

@@ -191,6 +191,10 @@ static double potential(const SporeModel *model, const double *q) {
   return body->material->potential[spore_cpu_level()](&body->tetrahedra, body->elasticity, q);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  return spore_tetrahedra_strain(&((const Body *)model)->tetrahedra, q);
+}
+
 static void add_slab_tangent(void *data, size_t index) {
   const Loop *loop = data;
   const Body *body = loop->body;
@@ -391,9 +395,9 @@ static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coa
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets, .destroy = destroy,         \
-  .place = place, .force = force, .potential = potential, .map = map, .skin = skin, .pattern = pattern,                \
-  .jacobian = jacobian, .tangent = tangent, .retune = retune, .doubt = doubt, .mend = mend, .settle = settle,          \
-  .cut = &cutting, .heat = &heating, .notice = notice
+  .place = place, .force = force, .potential = potential, .strain = strain, .map = map, .skin = skin,                  \
+  .pattern = pattern, .jacobian = jacobian, .tangent = tangent, .retune = retune, .doubt = doubt, .mend = mend,        \
+  .settle = settle, .cut = &cutting, .heat = &heating, .notice = notice
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

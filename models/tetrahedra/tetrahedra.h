@@ -68,6 +68,9 @@ static inline SporeElasticity spore_elasticity(double e, double nu, double visco
       .mu = e / (2 * (1 + nu)), .lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .viscosity = viscosity};
 }
 
+/* strain.c: the largest stretch of an element, less 1. Of a quadratic element that of its corners counts. */
+double spore_tetrahedra_strain(const SporeTetrahedra *tetrahedra, const double *q);
+
 /* Kernels of a material:
  *
  * _force: f += forces of a slab, the viscous ones with F as it is in shape.

@@ -22,6 +22,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_bag.py bag
 /usr/bin/python3 ../meshes/make_adnexa.py exercise-salpingectomy
 /usr/bin/python3 ../meshes/make_pegs.py exercise-peg-transfer
+/usr/bin/python3 ../meshes/make_tube.py exercise-clip-and-cut
 /usr/bin/python3 ../meshes/make_laparoscopy.py laparoscopy
 /usr/bin/python3 ../meshes/make_knot.py knot
 /usr/bin/python3 ../meshes/make_suture.py suture instruments
@@ -42,5 +43,6 @@ for side in left right; do
   "$spore" tetrahedra --quiet "organs/tube_$side.off" --cells 900 -o "organs/tube_$side.mesh"
 done
 "$spore" tetrahedra --quiet organs/ovary_right.off --cells 1600 -o cut-ovary/ovary.mesh
+"$spore" tetrahedra --quiet exercise-clip-and-cut/tube.off --cells 900 -o exercise-clip-and-cut/tube.mesh
 /usr/bin/python3 ../meshes/make_intestine.py organs plate6-intestine 0.70 5 4
 /usr/bin/python3 ../meshes/make_intestine.py organs laparoscopy 0.815 3 2

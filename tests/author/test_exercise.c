@@ -14,7 +14,9 @@ static const char scene_text[] = "<spore version=\"1.0\"><assets><mesh name=\"cu
                                  "<spheres name=\"ball\" file=\"ball.spheres\"/></assets>"
                                  "<bodies>" CUBE("left", "0") CUBE("right", "0.2") HAND("hand") HAND("a")
                                      HAND("b") "<body name=\"blood\" position=\"0 1 0\"><mechanical "
-                                               "geometry=\"cube\"><lennard_jones/></mechanical></body></bodies>"
+                                               "geometry=\"cube\"><lennard_jones/></mechanical></body>"
+                                               "<body name=\"tissue\" position=\"0 2 0\"><mechanical "
+                                               "geometry=\"cube\"><mass_spring_net/></mechanical></body></bodies>"
                                                "<tools>%s</tools></spore>\n";
 static const char tools[] =
     "<probe name=\"one\" body=\"hand\"/><clamp name=\"two\" body=\"hand\" jaw_a=\"a\" jaw_b=\"b\"/>"
@@ -65,7 +67,7 @@ static SporeObject *add_metric(Scene *scene, const char *element, const SporeObj
 static void test_kinds(void) {
   Scene scene = scene_new(tools);
   const GPtrArray *types = spore_object_type(scene.section)->children;
-  g_assert_cmpuint(types->len, ==, 12 + 13);
+  g_assert_cmpuint(types->len, ==, 12 + 16);
   for (guint i = 0; i < types->len; i++) {
     const SporeObjectType *type = types->pdata[i];
     gboolean step = spore_event_kind_find(type->element) != NULL,
@@ -87,7 +89,7 @@ static void test_kinds(void) {
   g_autoptr(SporeSimulation) simulation = spore_simulation_new(scene.document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
   g_assert_cmpuint(spore_exercise_state(simulation->exercise).steps, ==, 12);
-  g_assert_cmpuint(spore_exercise_state(simulation->exercise).metrics, ==, 13);
+  g_assert_cmpuint(spore_exercise_state(simulation->exercise).metrics, ==, 16);
   scene_free(&scene);
 }
 
@@ -119,6 +121,8 @@ static void test_refusals(void) {
   g_autoptr(GError) error = NULL;
   g_assert_true(spore_document_remove(scene.document, spore_document_find(scene.document, "body", "blood"), &error));
   refuses_metric(&scene, "blood_lost", "no fluid");
+  g_assert_true(spore_document_remove(scene.document, spore_document_find(scene.document, "body", "tissue"), &error));
+  refuses_metric(&scene, "peak_strain", "no tissue");
   scene_free(&scene);
 }
 
@@ -129,6 +133,8 @@ static void test_subject(void) {
   g_assert_null(spore_object_reference(add_metric(&scene, "drops", NULL), "body"));
   const SporeObject *blood = spore_document_find(scene.document, "body", "blood");
   g_assert_true(spore_object_refers_to(add_metric(&scene, "blood_lost", scene.ends[1].body), blood));
+  const SporeObject *tissue = spore_document_find(scene.document, "body", "tissue");
+  g_assert_true(spore_object_refers_to(add_metric(&scene, "peak_strain", scene.ends[1].body), tissue));
   scene_free(&scene);
 }
 

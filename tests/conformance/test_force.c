@@ -461,6 +461,24 @@ static void check_labels(gconstpointer data) {
   g_rand_free(random);
 }
 
+static gboolean has_strain(const SporeModelType *type) { return type->strain != NULL; }
+
+/* What is as much longer everywhere as its nodes are drawn apart has that strain, wherever it is and however turned. */
+static void check_strain(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(11);
+  for (double stretch = 0.8; stretch < 1.5; stretch += 0.2) {
+    State state = state_random(model, random, stretch, 0);
+    uint64_t before = spore_allocation_count();
+    g_assert_cmpfloat_with_epsilon(model->type->strain(model, state.q), stretch - 1, 1e-6);
+    g_assert_cmpuint(spore_allocation_count(), ==, before);
+    state_clear(&state);
+  }
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   specimen_add_tests("/conformance/gradient", check_gradient, NULL);
@@ -472,6 +490,7 @@ int main(int argc, char **argv) {
   specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
   specimen_add_tests("/conformance/momentum", check_momentum, is_alone);
   specimen_add_tests("/conformance/frame", check_frame, NULL);
+  specimen_add_tests("/conformance/strain", check_strain, has_strain);
   specimen_add_tests("/conformance/labels", check_labels, NULL);
   return g_test_run();
 }

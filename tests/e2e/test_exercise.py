@@ -141,6 +141,24 @@ def paths_movements_economy_and_time_are_those_of_the_track():
 
 
 @check
+def a_path_is_that_of_the_tip():
+    """A tool that turns about the origin of its body by half a turn, 0.1 m ahead of which it acts; a probe has its tip there."""
+    probe, suction = '<probe name="one" body="tip"', '<suction name="one" body="tip" point="0 -0.1 0"'
+    rows = "".join(f"{t / 100:.2f} 0 0 0 {math.cos(math.pi * t / 400):.9f} 0 0 {math.sin(math.pi * t / 400):.9f} 0 0\n" for t in range(201))
+    parts = ('<path_length name="path" tool="one"/><reached name="side" tool="one" point="0.1 0 0" radius="0.002"/>'
+             '<passed_through name="down" tool="one" point="0.070711 -0.070711 0" direction="1 1 0" radius="0.002"/>')
+    (WORK / "hand.track").write_text(f"spore-track 1\ndevice tip\n{rows}device other\n0 0.25 0 0 1 0 0 0 0 0\n")
+    found = []
+    for tool in suction, probe:
+        (WORK / "scene.spore").write_text((SCENE % ("", parts)).replace(probe, tool))
+        found.append(json.loads(spore("run", "scene.spore", "-n", 200, "--json").stdout)["exercise"])
+    track(straight)
+    near(metrics(found[0])["path"]["value"], 0.1 * math.pi / 2, 0.002)
+    near(metrics(found[1])["path"]["value"], 0)
+    assert left(found[0]) == [] and left(found[1]) == ["side", "down"], found
+
+
+@check
 def a_detour_costs_economy_and_haste_smoothness():
     track(lambda t: 0.001 * t ** 3)
     smooth = metrics(run('<economy name="e" tool="one"/><smoothness name="s" tool="one"/>', 400))
@@ -227,6 +245,18 @@ def marks_and_score_follow_from_the_thresholds():
 
 
 @check
+def what_is_not_finished_is_not_good():
+    """Where less is better; what is too much already has failed, and more that is better counts at once."""
+    grade = '<time_taken name="time" good="3 s"/><time_taken name="late" good="0.5 s"/><economy name="economy" tool="one" good="50 %"/>'
+    step = '<reached name="far" tool="one" point="%s 0 0" radius="0.002"/>'
+    for place, verdicts, marks in ("9", ("unfinished", "fail", "good"), (0, 0, 1)), ("0.1", ("good", "fail", "good"), (1, 0, 1)):
+        exercise = run(step % place + grade, 200, "", "--report", "r.html")
+        found = [metrics(exercise)[name] for name in ("time", "late", "economy")]
+        assert tuple(m["verdict"] for m in found) == verdicts and tuple(m["mark"] for m in found) == marks, found
+        assert ("not finished" in (WORK / "r.html").read_text()) == (place == "9")
+
+
+@check
 def what_no_tool_is_named_for_is_done_by_those_that_can():
     lifted = '<lifted name="%s" %s body="adnexa" height="0.0005"/>'
     found = steps(run_shipped("exercise-salpingectomy", '<grasped name="grasped" body="adnexa"/><clamped name="clamped" body="adnexa"/>' +
@@ -293,7 +323,7 @@ def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
 
     if not is_sanitized(SPORE):
         one, two = report(600), report(600, 2)
-        assert one["exercise"] == two["exercise"] and one["exercise"]["score"] > 0, one["exercise"]
+        assert one["exercise"] == two["exercise"] and one["exercise"]["steps"][0]["phase"] == "done", one["exercise"]
     exercise = report(5100)["exercise"]
     assert exercise["phase"] == "done" and exercise["passed"], exercise
     times = [step["done_s"] for step in exercise["steps"]]
@@ -328,6 +358,27 @@ def rings_go_over_and_back_by_their_track():
     assert metrics(fallen)["drops"]["value"] == 1 and metrics(fallen)["drops"]["verdict"] == "fail", fallen
     assert steps(fallen)["lift_1"]["phase"] == "done" and steps(fallen)["pass_1"]["phase"] == "open", fallen
     assert fallen["score"] < 5 and not fallen["passed"], fallen
+
+
+@check
+def a_tube_is_clamped_on_both_sides_and_cut_between():
+    """By its track; the other track cuts too early. Strain is over a limit that the squeeze reaches, not over one beyond."""
+    scene = SCENES / "exercise-clip-and-cut.spore"
+    text = scene.read_text()
+    limits = '<excess_strain name="%s" body="tube" strain="%s"/>'
+    scene.write_text(text.replace("</exercise>", limits % ("little", "0.01") + limits % ("much", "5") + "</exercise>"))
+    try:
+        cut = run_exercise("exercise-clip-and-cut", 1500)
+        early = run_exercise("exercise-clip-and-cut", 1500, "--input", SCENES / "exercise-clip-and-cut" / "early.track")
+    finally:
+        scene.write_text(text)
+    times = [step["done_s"] for step in cut["steps"]]
+    assert cut["passed"] and cut["score"] == 100 and times == sorted(times), cut
+    found = metrics(cut)
+    assert 0.01 < found["mean_strain"]["value"] < found["peak_strain"]["value"] < 5, found
+    assert 0 < found["little"]["value"] <= cut["time_s"] and found["much"]["value"] == found["overstretched"]["value"] == 0, found
+    assert left(early) == ["cut"] and metrics(early)["errors"]["value"] == 1 and not early["passed"], early
+    assert metrics(early)["errors"]["verdict"] == "fail" and metrics(early)["time"]["verdict"] == "unfinished", early
 
 
 @check
@@ -413,6 +464,8 @@ def bad_exercises_are_refused_with_place_and_remedy():
                          ('<bagged name="a" body="tip"/>', ("names no container",)),
                          ('<out_of_view name="a"/>', ("names no camera",)),
                          ('<blood_lost name="a" body="tip"/>', ("no fluid",)),
+                         ('<peak_strain name="a" body="tip"/>', ("no strain",)),
+                         ('<excess_strain name="a"/>', ("names no body",)),
                          ('<time_taken name="a" good="249"/>', ("no unit", '"s"')),
                          ('<time_taken name="a" good="249 N"/>', ("unit", '"s"')),
                          ('<time_taken name="a" good="fast"/>', ("no number",)),

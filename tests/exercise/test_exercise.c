@@ -202,12 +202,48 @@ static void test_memory(void) {
   rig_free(course.rig);
 }
 
+/* Where less is better nothing is good before all steps are done, and the mark is 0; what is worse than pass has
+ * failed. Of an exercise without steps all is judged at once. */
+static void test_unfinished(void) {
+  Course course;
+  set_up(&course);
+  course.metrics[0].fields.pass = "60 cm";
+  course.metrics[1].fields.good = course.metrics[1].fields.pass = "1 min";
+  course.metrics[1].fields.weight = 1;
+  SporeExercise *exercise = create(&course);
+  run(&course, exercise, 50);
+  for (size_t i = 0; i < 2; i++) {
+    g_assert_cmpint(spore_exercise_metric_state(exercise, i).verdict, ==, SPORE_METRIC_UNFINISHED);
+    g_assert_cmpfloat(spore_exercise_metric_state(exercise, i).mark, ==, 0);
+  }
+  g_assert_cmpfloat(spore_exercise_state(exercise).score, ==, 0);
+  run(&course, exercise, 20);
+  g_assert_cmpint(spore_exercise_metric_state(exercise, 0).verdict, ==, SPORE_METRIC_PASS);
+  g_assert_cmpint(spore_exercise_metric_state(exercise, 1).verdict, ==, SPORE_METRIC_GOOD);
+  g_assert_true(spore_exercise_state(exercise).passed);
+  g_assert_cmpfloat(spore_exercise_state(exercise).score, >, 70);
+  spore_exercise_free(exercise);
+  course.description.step_count = 0;
+  exercise = create(&course);
+  g_assert_cmpint(spore_exercise_metric_state(exercise, 1).verdict, ==, SPORE_METRIC_GOOD);
+  spore_exercise_free(exercise);
+  course.steps[0].fields.point[0] = 50; /* out of reach */
+  course.description.step_count = 1;
+  exercise = create(&course);
+  run(&course, exercise, 70);
+  g_assert_cmpint(spore_exercise_metric_state(exercise, 0).verdict, ==, SPORE_METRIC_FAIL);
+  g_assert_cmpfloat(spore_exercise_metric_state(exercise, 0).mark, ==, 0);
+  spore_exercise_free(exercise);
+  rig_free(course.rig);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/exercise/watching", test_watching);
   g_test_add_func("/exercise/pause_and_restart", test_pause_and_restart);
   g_test_add_func("/exercise/skip", test_skip);
   g_test_add_func("/exercise/random_orders", test_random_orders);
+  g_test_add_func("/exercise/unfinished", test_unfinished);
   g_test_add_func("/exercise/refused", test_refused);
   g_test_add_func("/exercise/memory", test_memory);
   return g_test_run();

@@ -89,6 +89,9 @@ static void test_grasper(void) {
   say(world, "open");
   double low = height(world);
   g_assert_cmpfloat_with_epsilon(spore_world_tool_state(world, 0).opening, 1, 1e-9);
+  SporeVec3 tip = spore_world_tool_tip(world, 0); /* as if the jaws were closed, and of the shaft as it stands */
+  SporeVec3 hinge = spore_vec3_load(spore_world_q(world, SHAFT));
+  g_assert_cmpfloat(spore_vec3_distance(tip, spore_vec3_sub(hinge, spore_vec3(0, 0.004 * JAW_SPHERES, 0))), <, 1e-9);
   run_to(world, 0.95);
   say(world, "closed");
   g_assert_cmpuint(spore_world_tool_state(world, 0).held, >, 0);

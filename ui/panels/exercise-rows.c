@@ -192,9 +192,11 @@ void spore_metric_row_show(GtkWidget *widget, const SporeMetricState *state) {
   Row *row = row_of(widget);
   gboolean known = state && isfinite(state->value), judged = state && state->verdict != SPORE_METRIC_NONE;
   g_autofree char *figure = known ? g_strdup_printf("%.4g %s", state->value, state->unit) : g_strdup(state ? "–" : "");
-  g_autofree char *grade = judged ? g_strdup_printf("%.2f", state->mark) : g_strdup("");
+  gboolean unfinished = judged && state->verdict == SPORE_METRIC_UNFINISHED;
+  g_autofree char *grade = unfinished ? g_strdup("…") : judged ? g_strdup_printf("%.2f", state->mark) : g_strdup("");
   gtk_label_set_text(GTK_LABEL(row->figure), g_strchomp(figure));
   gtk_label_set_text(GTK_LABEL(row->grade), grade);
+  gtk_widget_set_tooltip_text(row->grade, unfinished ? _("Not finished: judged when all steps are done.") : NULL);
   set_class(row->grade, "tag-live", judged && state->verdict == SPORE_METRIC_GOOD);
   set_class(row->grade, "tag-restart", judged && state->verdict == SPORE_METRIC_PASS);
   set_class(row->grade, "complaint", judged && state->verdict == SPORE_METRIC_FAIL);

@@ -9,7 +9,6 @@
 typedef struct SporeBipolar {
   SporeTool tool;
   SporeBipolarFields fields;
-  SporeVec3 point;   /* in the frame of the tool's body, m */
   size_t coagulated; /* ties and elements, in the last step */
 } SporeBipolar;
 
@@ -30,7 +29,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
   bipolar->coagulated = 0;
   if (!spore_tool_button(world, tool->bodies[0])) return;
   const double *q = world->state.q + holder->q_offset;
-  SporeVec3 point = spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, bipolar->point);
+  SporeVec3 point = spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->tip);
   const SporeBipolarFields *fields = &bipolar->fields;
   const SporeHeat heat = {point, fields->radius, fields->rate * world->solver.time_step, 1 - fields->least,
                           fields->stiffening};
@@ -52,7 +51,7 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
 static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   SporeBipolar *bipolar = (SporeBipolar *)tool;
   bipolar->fields = *(const SporeBipolarFields *)from->fields;
-  bipolar->point = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(bipolar->fields.point));
+  tool->tip = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(bipolar->fields.point));
   return true;
 }
 

@@ -37,6 +37,24 @@ const char *spore_hinge_fault(const SporeJawFields *fields) {
   return NULL;
 }
 
+/* In the frame of the tool's body: the middle between the spheres of the closed jaws that are farthest from the hinge;
+ * the hinge, where no jaw has spheres. */
+static SporeVec3 tip_of(const SporeWorld *world, const SporeJaws *jaws) {
+  SporeVec3 sum = {0, 0, 0};
+  double count = 0;
+  for (int j = 0; j < 2; j++) {
+    const SporeJaw *jaw = &jaws->jaw[j];
+    const SporeMapping *spheres = jaw->body == SPORE_NO_BODY ? NULL : &world->bodies[jaw->body].collision.spheres;
+    SporeVec3 farthest = jaws->hinge;
+    for (size_t i = 0; spheres && i < spheres->point_count; i++) {
+      SporeVec3 at = spore_pose_apply(jaw->closed, spore_vec3_load(spheres->points + 3 * i));
+      if (spore_vec3_distance(at, jaws->hinge) > spore_vec3_distance(farthest, jaws->hinge)) farthest = at;
+    }
+    if (spheres && spheres->point_count > 0) sum = spore_vec3_add(sum, farthest), count++;
+  }
+  return count > 0 ? spore_vec3_scale(1 / count, sum) : jaws->hinge;
+}
+
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   assert(from->fields && tool->bodies[0] < world->body_count);
   assert(tool->spring_start + tool->spring_count <= spore_world_spring_count(world));
@@ -56,6 +74,7 @@ bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescript
     jaw->closed =
         (SporePose){spore_pose_apply_inverse(*frame, pose->position), spore_quat_multiply(back, pose->orientation)};
   }
+  tool->tip = tip_of(world, jaws);
   jaws->held_at = -1;
   jaws->holds = SPORE_NEW_ARRAY(SporeHold, tool->spring_count);
   bool made = jaws->holds != NULL;

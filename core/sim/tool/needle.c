@@ -123,7 +123,8 @@ static SporeVec3 arc_at(SporeVec3 a, SporeVec3 b, SporeVec3 c, double share) {
 /* Control points lie on the arc, each at the mean of its knots. The path is off the arc by the square of a span's
  * length, times the curvature, over 6. */
 static void make_path(const SporeWorld *world, SporeNeedle *needle) {
-  SporeVec3 tip = spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.tip));
+  SporeVec3 tip = needle->tool.tip =
+      spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.tip));
   SporeVec3 middle = spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.middle));
   SporeVec3 swage = spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.swage));
   for (int i = 0; i < SPANS + 3; i++) {

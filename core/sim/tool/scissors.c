@@ -8,15 +8,14 @@
 
 typedef struct SporeScissors {
   SporeJaws jaws;
-  SporeVec3 tip; /* end of the closed blades, in the frame of the tool's body, m */
-  size_t cut;    /* ties so far */
+  size_t cut; /* ties so far */
 } SporeScissors;
 
 /* The end of a blade, in the world, m. */
 static SporeVec3 blade_tip(const SporeScissors *scissors, const double *shaft, double half) {
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
   SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(half, scissors->jaws.axis));
-  SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(scissors->tip, scissors->jaws.hinge));
+  SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(scissors->jaws.tool.tip, scissors->jaws.hinge));
   return spore_pose_apply(frame, spore_vec3_add(scissors->jaws.hinge, arm));
 }
 
@@ -80,10 +79,10 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
 }
 
 static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
-  SporeScissors *scissors = (SporeScissors *)tool;
   const SporeJawFields *fields = from->fields;
-  scissors->tip = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(fields->tip));
-  return spore_jaws_make(world, tool, from);
+  bool made = spore_jaws_make(world, tool, from);
+  tool->tip = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(fields->tip));
+  return made;
 }
 
 static void use(SporeWorld *world, SporeTool *tool) {

@@ -8,9 +8,8 @@
 typedef struct SporeSuction {
   SporeTool tool;
   SporeSuctionFields fields;
-  SporeVec3 point; /* middle of the mouth, in the frame of the tool's body, m */
-  double due;      /* particles that may be taken away by now */
-  size_t taken;    /* so far */
+  double due;   /* particles that may be taken away by now */
+  size_t taken; /* so far */
 } SporeSuction;
 
 static void suck_from(SporeWorld *world, SporeSuction *suction, uint32_t index, SporeVec3 mouth) {
@@ -37,7 +36,7 @@ static void exchange(SporeWorld *world, SporeTool *tool) {
   const SporeSuctionFields *fields = &suction->fields;
   suction->due = spore_flow_due(world, fields->rate, fields->trigger, tool->bodies[0], suction->due);
   if (suction->due < 1) return;
-  SporeVec3 mouth = spore_pose_apply(spore_world_next_pose(world, tool->bodies[0]), suction->point);
+  SporeVec3 mouth = spore_pose_apply(spore_world_next_pose(world, tool->bodies[0]), tool->tip);
   for (uint32_t b = 0; b < world->body_count; b++)
     if (spore_body_is_fluid(&world->bodies[b]) && !world->bodies[b].frozen) suck_from(world, suction, b, mouth);
 }
@@ -50,7 +49,7 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
 static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   SporeSuction *suction = (SporeSuction *)tool;
   suction->fields = *(const SporeSuctionFields *)from->fields;
-  suction->point = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(suction->fields.point));
+  tool->tip = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(suction->fields.point));
   return true;
 }
 

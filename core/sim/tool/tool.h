@@ -12,6 +12,7 @@ typedef struct SporeTool {
   char *name;
   uint32_t bodies[SPORE_TOOL_BODIES]; /* as in the description */
   size_t spring_start, spring_count;  /* its springs in SporeLinkSystem.springs */
+  SporeVec3 tip;                      /* where it acts, in the frame of its first body, m; `make` sets it */
 } SporeTool;
 
 /* A source of particles; see SporeEmitterDescription. */

@@ -171,6 +171,13 @@ size_t spore_world_tool_holds(const SporeWorld *world, size_t index, uint32_t bo
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }
 
+SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t index) {
+  assert(index < world->tools.count);
+  const SporeTool *tool = world->tools.all[index];
+  const double *q = world->state.q + world->bodies[tool->bodies[0]].q_offset;
+  return spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->tip);
+}
+
 const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t index) {
   assert(index < world->tools.count);
   return world->tools.all[index]->type;
