@@ -34,6 +34,10 @@ static const ExportFormat formats[] = {
      N_("the compiled scene in one file, which libspore and spore-player load without GLib and XML, and run to the "
         "same bits"),
      spore_export_runtime},
+    {"player", EXPORT_NO_MOMENT,
+     N_("a folder, -o FOLDER, with the runtime file and spore-player, which runs where nothing but the C library is: "
+        "./play there"),
+     spore_export_player},
     {"vtk", EXPORT_SERIES,
      N_("a series over time that ParaView opens, -o F.pvd or a folder: surfaces, tetrahedra with displacement and "
         "strain, lines, particles, all with velocities"),

@@ -36,6 +36,10 @@ void spore_export_lose(SporeExport *export, char *sentence);
 /* The same: what the scene holds and the file does not need. */
 void spore_export_leave_out(SporeExport *export, char *sentence);
 
+/* The scene's runtime file (core/runtime/runtime.h): *size bytes, spore_free. Tells what is lost. NULL with a GError.
+ */
+gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **error);
+
 /* Moments. */
 
 /* What a format does with the scene at a moment. FALSE with a GError. */
@@ -54,6 +58,7 @@ gboolean spore_export_refuse_empty(const SporeExport *export, GError **error);
 
 /* The formats. Each writes export->output; FALSE with a GError, and then nothing is written. */
 gboolean spore_export_bundle(SporeExport *export, GError **error);
+gboolean spore_export_player(SporeExport *export, GError **error);
 gboolean spore_export_runtime(SporeExport *export, GError **error);
 gboolean spore_export_gltf(SporeExport *export, GError **error);
 gboolean spore_export_mjcf(SporeExport *export, GError **error);

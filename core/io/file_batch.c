@@ -216,6 +216,15 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
   return added;
 }
 
+gboolean spore_file_batch_let_run(SporeFileBatch *batch, GError **error) {
+  const Entry *entry = g_ptr_array_index(batch->entries, batch->entries->len - 1);
+  struct stat now;
+  if (fstatat(entry->folder, entry->temporary, &now, AT_SYMLINK_NOFOLLOW) == 0 &&
+      fchmodat(entry->folder, entry->temporary, (now.st_mode & 07777) | (now.st_mode & 0444) >> 2, 0) == 0)
+    return TRUE;
+  return spore_file_refuse(errno, entry->place, error);
+}
+
 char *spore_file_target(const char *file) {
   char *real = realpath(file, NULL);
   char *target = g_strdup(real ? real : file);

@@ -29,6 +29,8 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
 /* Adds the file of that path, whose folder is there. */
 gboolean spore_file_batch_add_path(SporeFileBatch *batch, const char *file, const void *content, gsize size,
                                    GError **error);
+/* Lets whoever may read the file that was added last run it, too. */
+gboolean spore_file_batch_let_run(SporeFileBatch *batch, GError **error);
 /* The real target of a file name. Symbolic links are followed, so that they stay links. g_free. */
 char *spore_file_target(const char *file);
 /* Opens the folder that the file lies in. -1 with the error. */

@@ -45,7 +45,7 @@ typedef struct {
   gboolean failed; /* *error is set */
 } HelperRun;
 
-static char *helper_path(const char *program) {
+char *spore_helper_path(const char *program) {
   char *beside = g_file_read_link("/proc/self/exe", NULL);
   char *folder = beside ? g_path_get_dirname(beside) : NULL;
   const char *const folders[] = {g_getenv("SPORE_HELPERS"), folder, SPORE_HELPER_FOLDER};
@@ -308,7 +308,7 @@ GBytes *spore_helper_run(const char *program, const char *place, GBytes *request
   run.request = g_bytes_get_data(request, &size);
   run.request_head = (SporeFrame){SPORE_FRAME_MAGIC, SPORE_FRAME_REQUEST, size};
   run.request_file = run.answer_file = run.complaint_file = -1;
-  char *path = helper_path(program);
+  char *path = spore_helper_path(program);
   if (!path) {
     fail(&run, SPORE_ERROR_UNSUPPORTED,
          _("the helper program %s is missing; expected it beside spore or in %s; install SPORE whole, or name its "

@@ -14,10 +14,13 @@ typedef struct SporeHelperLimits {
   guint64 output; /* bytes of answer at most */
 } SporeHelperLimits;
 
-/* Runs the helper `program` ("spore-import", "spore-tetrahedra"), found in SPORE_HELPERS, beside the running program,
- * or in the installed libexec folder. Sends `request`, reports the helper's progress, and returns its answer. NULL with
- * a GError: the helper is not in this build, died (with its signal), took too long, answered too much, reported an
- * error, or was cancelled (killed at once). */
+/* Where the program is: in SPORE_HELPERS, beside the running program, or in the installed libexec folder. g_free; NULL:
+ * it is in none of them. */
+char *spore_helper_path(const char *program);
+
+/* Runs the helper `program` ("spore-import", "spore-tetrahedra"), found by spore_helper_path. Sends `request`, reports
+ * the helper's progress, and returns its answer. NULL with a GError: the helper is not in this build, died (with its
+ * signal), took too long, answered too much, reported an error, or was cancelled (killed at once). */
 GBytes *spore_helper_run(const char *program, const char *place, GBytes *request, const SporeHelperLimits *limits,
                          const SporeProgress *progress, GError **error);
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from tap import check, is_sanitized, main, wait_for_work
+from tap import Skip, check, is_sanitized, main, wait_for_work
 
 SPORE, PLAYER, SCENES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), pathlib.Path(sys.argv[3])
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-export-"))
@@ -71,6 +71,49 @@ def settings_and_input_come_along(*_):
     assert state(PLAYER, file, "--steps", STEPS)["state_hash"] == state(SPORE, "run", scene, "-n", STEPS, *options)["state_hash"]
     names = state(PLAYER, file, "--steps", 0)
     assert "ovary_right" in names["bodies"] and any(visual["body"] == "ovary_right" and visual["vertices"] > 100 for visual in names["visuals"])
+
+
+@check
+def a_folder_with_a_player_runs_on_a_bare_system(*_):
+    """A folder with the player holds all that its run needs: it comes to the same bits, wherever it lies, with the C library alone"""
+    if is_sanitized(SPORE):
+        raise Skip("a sanitizer's program needs more libraries")
+    scene, bare = SCENES / "exercise-peg-transfer.spore", FOLDER / "bare"
+    report = json.loads(run(SPORE, "export", scene, "--format", "player", "-o", FOLDER / "given", "--json"))
+    written = {pathlib.Path(one["file"]) for one in report["written"]}
+    assert written == {FOLDER / "given" / name for name in ("play", "spore-player", "scene.run", "README.txt")}
+    assert all(pathlib.Path(one["file"]).stat().st_size == one["bytes"] for one in report["written"]) and report["lost"]
+    expected = state(SPORE, "run", scene, "-n", STEPS)
+    (bare / "elsewhere").mkdir(parents=True)
+    moved = (FOLDER / "given").rename(bare / "elsewhere" / "a b")
+    assert state(moved / "play", "--steps", STEPS)["state_hash"] == expected["state_hash"]
+    libraries = [line.split("=>")[-1].split()[0] for line in run("ldd", moved / "spore-player").splitlines() if "/" in line]
+    assert {pathlib.Path(name).name.split(".")[0].split("-")[0] for name in libraries} == {"libc", "libm", "ld"}, libraries
+    if os.geteuid() == 0:  # a system with nothing else
+        for library in libraries:
+            (bare / library[1:]).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(library, bare / library[1:])
+        said = subprocess.run(["/elsewhere/a b/spore-player", "/elsewhere/a b/scene.run", "--steps", str(STEPS), "--json"], capture_output=True,
+                              check=True, env={}, cwd="/", preexec_fn=lambda: os.chroot(bare))
+        assert json.loads(said.stdout)["state_hash"] == expected["state_hash"]
+
+
+@check
+def a_folder_of_ones_own_is_left_alone(*_):
+    """A folder that holds something, a file, and a spore without its player are refused, and nothing is written"""
+    scene, own = SCENES / "minimal.spore", FOLDER / "own"
+    own.mkdir()
+    run(SPORE, "export", scene, "--format", "player", "-o", own)
+    (own / "mine").write_text("x")
+    for taken in (own, own / "mine"):
+        assert "already" in run(SPORE, "export", scene, "--format", "player", "-o", taken, status=2)
+    assert len(list(own.iterdir())) == 5 and (own / "mine").read_text() == "x"
+    alone = FOLDER / "spore"
+    shutil.copy(SPORE, alone)
+    if os.access("/usr/local/libexec/spore/spore-player", os.X_OK):
+        raise Skip("a player is installed")
+    said = run(alone, "export", scene, "--format", "player", "-o", FOLDER / "none", status=2)
+    assert "spore-player is not there" in said and said.count("\n") == 1 and not (FOLDER / "none").exists()
 
 
 @check
