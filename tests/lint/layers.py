@@ -41,6 +41,9 @@ UMBRELLA = "models/spore.h"
 FOLDERS = {"core": set(), "models": {"core"}, "ui": {"core", "models"}, "app": {"core", "models", "ui"}}
 # Headers of libraries that the kernel does not know.
 FOREIGN = re.compile(r"glib|gio|gtk|libxml|json-glib|epoxy|png|assimp|CGAL")
+# Headers that Windows has not: the kernel, the models and spore-player build for Windows, too.
+UNIX = re.compile(r"^(linux|sys|gnu|asm|arpa|netinet)/|^(unistd|fcntl|poll|dlfcn|spawn|pwd|glob|termios)\.h$")
+PLAYER = {pathlib.PurePath("app/player.c"), pathlib.PurePath("app/player_report.c")}
 # Memory that GLib may refuse to give.
 ASKS_GLIB = re.compile(r"\bg_try_(new|malloc|realloc|renew)")
 
@@ -109,8 +112,11 @@ def include_breach(path, name, system):
     """Why the file `path` may not include `name`; None where it may."""
     parts = pathlib.PurePath(path).parts
     if system:
-        if FOREIGN.search(name) and (parts[0] == "models" or parts[0] == "core" and parts[1] in KERNEL):
+        kernel = parts[0] == "models" or parts[0] == "core" and parts[1] in KERNEL
+        if FOREIGN.search(name) and kernel:
             return "the kernel needs libc alone"
+        if UNIX.search(name) and (kernel or pathlib.PurePath(path) in PLAYER):
+            return "it builds for Windows, too"
         return "the renderer knows no GTK" if parts[:2] == ("ui", "render") and "gtk" in name else None
     if private_of_generate(path, name):
         return f"only {name.rsplit('/', 2)[1]}.h is for others"
