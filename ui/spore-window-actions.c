@@ -208,6 +208,35 @@ static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) 
   spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
 }
 
+static void change_cut(GSimpleAction *action, GVariant *state, gpointer data) {
+  spore_viewport_set_cut(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(state, NULL));
+  g_simple_action_set_state(action, state);
+}
+
+static void change_cut_side(GSimpleAction *action, GVariant *state, gpointer data) {
+  spore_viewport_turn_cut(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_boolean(state));
+  g_simple_action_set_state(action, state);
+}
+
+static void act_measure(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const SporeGauge *gauge = spore_gauge_find(g_variant_get_string(parameter, NULL));
+  if (!gauge) return;
+  spore_window_end_pick(self);
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
+  spore_viewport_measure(SPORE_VIEWPORT(self->viewport), gauge);
+}
+
+static void act_clear_measures(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_viewport_clear_measures(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
+}
+
+static void measuring(SporeWindow *self) {
+  if (!self->player) return; /* the document is being put into the window */
+  spore_window_show_hint(self);
+  spore_window_update_actions(self);
+}
+
 static void act_filter(GSimpleAction *action, GVariant *parameter, gpointer data) {
   spore_outliner_focus_filter(SPORE_OUTLINER(((SporeWindow *)data)->outliner));
 }
@@ -293,10 +322,15 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"apply-point", act_apply_point},
       {"frame", act_frame},
       {"view", act_view, "s"},
+      {"cut", NULL, "s", "'none'", change_cut},
+      {"cut-other-side", NULL, NULL, "false", change_cut_side},
+      {"measure", act_measure, "s"},
+      {"clear-measures", act_clear_measures},
       {"filter", act_filter},
       {"report", act_report, "s"},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   g_signal_connect_object(self->accuracy, "study-changed", G_CALLBACK(study_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->viewport, "measuring", G_CALLBACK(measuring), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->inspector, "marks-changed", G_CALLBACK(marks_changed), self, G_CONNECT_SWAPPED);
 }

@@ -181,7 +181,8 @@ static const char *hint_for(SporeWindow *self) {
 void spore_window_show_hint(SporeWindow *self) {
   guint hidden = spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport));
   g_autofree char *of_draft = draft_hint(self);
-  const char *hint = of_draft ? of_draft : hint_for(self);
+  g_autofree char *of_measure = spore_viewport_measure_hint(SPORE_VIEWPORT(self->viewport));
+  const char *hint = of_draft ? of_draft : of_measure ? of_measure : hint_for(self);
   g_autofree char *text = hidden ? g_strdup_printf(ngettext("%u body is hidden, A shows all; %s",
                                                             "%u bodies are hidden, A shows all; %s", hidden),
                                                    hidden, hint)
@@ -243,6 +244,7 @@ static void update_bodies(SporeWindow *self, gboolean idle) {
   set_enabled(self, "make-soft", idle && soft);
   set_enabled(self, "hide", selected->len > 0);
   set_enabled(self, "isolate", selected->len > 0);
+  set_enabled(self, "clear-measures", spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) > 0);
   set_enabled(self, "show-all", spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) > 0);
 }
 
@@ -266,6 +268,7 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "rename", named && selected_count == 1);
   set_enabled(self, "rename-dialog", named && selected_count == 1);
   update_generator(self, bodies);
+  set_enabled(self, "measure", bodies);
   set_enabled(self, "add-pin", bodies);
   set_enabled(self, "select-organs", bodies);
   set_enabled(self, "add-link", bodies);

@@ -12,7 +12,7 @@
 #define LARGEST_SPEED 1000
 
 typedef struct RenderOptions {
-  char *size, *output, *camera, *time, *beside;
+  char *size, *output, *camera, *time, *beside, *clip;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
   gboolean spheres, tetrahedra;
@@ -53,6 +53,31 @@ static gboolean parse_rate(const char *option, const char *text, double largest,
                            _("'%s'; expected a number that is more than 0 and at most %g"), text, largest);
 }
 
+/* FALSE: it is not exactly four finite numbers between commas. */
+static gboolean read_four(const char *text, double number[4]) {
+  for (int k = 0; k < 4; k++) {
+    char *end;
+    number[k] = g_ascii_strtod(text, &end);
+    if (end == text || !isfinite(number[k]) || *end != (k < 3 ? ',' : '\0')) return FALSE;
+    text = end + 1;
+  }
+  return TRUE;
+}
+
+/* The direction may have any length but 0. text NULL: nothing is hidden. */
+static gboolean parse_clip(const char *text, SporeClip *clip, GError **error) {
+  double number[4];
+  if (!text) return TRUE;
+  SporeVec3 normal = read_four(text, number) ? spore_vec3_load(number) : (SporeVec3){0};
+  if (!(spore_vec3_length(normal) > 0))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--clip",
+                             _("'%s' is no plane; expected NX,NY,NZ,D: a direction other than 0, and how far along it "
+                               "from the origin the plane lies, in metres; such as 0,0,1,0.02"),
+                             text);
+  *clip = (SporeClip){spore_vec3_normalise(normal, normal), number[3]};
+  return TRUE;
+}
+
 /* A film's size is bounded where the pictures of two runs stand in a row. */
 static gboolean check_width(const RenderOptions *options, int width, GError **error) {
   if (!options->beside || 2 * width <= LARGEST_SIDE) return TRUE;
@@ -80,7 +105,7 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                                  "pictures) or F.webm (a film)"),
                                of_films[i].option);
   return parse_size(options->size, &filming->width, &filming->height, error) &&
-         check_width(options, filming->width, error) &&
+         check_width(options, filming->width, error) && parse_clip(options->clip, &filming->clip, error) &&
          parse_rate("--fps", options->fps, LARGEST_FPS, &filming->fps, error) &&
          parse_rate("--speed", options->speed, LARGEST_SPEED, &filming->speed, error) &&
          (!options->from || spore_cli_seconds("--from", options->from, &filming->from_s, error)) &&
@@ -166,8 +191,8 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
 }
 
 static void clear_options(RenderOptions *options) {
-  char *const texts[] = {options->size,   options->output, options->camera, options->time,
-                         options->beside, options->from,   options->fps,    options->speed};
+  char *const texts[] = {options->clip,   options->size, options->output, options->camera, options->time,
+                         options->beside, options->from, options->fps,    options->speed};
   for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
   g_strfreev(options->level);
   spore_scene_options_clear(&options->scene);
@@ -201,6 +226,9 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
        N_("Size in pixels (default 1280x720); with --beside, of each of the two"), "WxH"},
       {"camera", 0, 0, G_OPTION_ARG_STRING, &options.camera,
        N_("Camera of the scene (default: the first, or one that sees all)"), "NAME"},
+      {"clip", 0, 0, G_OPTION_ARG_STRING, &options.clip,
+       N_("Hide what lies beyond a plane: further along the direction NX,NY,NZ than D metres from the origin"),
+       "NX,NY,NZ,D"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/mesh/common.h"
 #include "core/mesh/half_edges.h"
+#include "core/mesh/volume.h"
 
 #define HOLLOW_VOLUME 1e-12 /* of the cubed diagonal */
 
@@ -12,17 +13,36 @@ static bool degenerate(SporeVec3 a, SporeVec3 b, SporeVec3 c, double area) {
   return area <= SPORE_MESH_FLAT * longest * longest;
 }
 
-/* Volumes are summed about the middle of the box, so that a mesh far from the origin loses no digits. */
-static void measure_triangles(const SporeTriangleMesh *mesh, SporeMeshReport *report) {
-  SporeVec3 middle =
-      spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(report->lower), spore_vec3_load(report->upper)));
+/* Corners of a triangle about the middle of the mesh's box, so that a mesh far from the origin loses no digits. */
+static void corners_about(const SporeTriangleMesh *mesh, size_t t, SporeVec3 middle, SporeVec3 p[3]) {
+  for (int k = 0; k < 3; k++)
+    p[k] = spore_vec3_sub(spore_mesh_vertex(mesh->vertices, mesh->triangles[3 * t + k]), middle);
+}
+
+static SporeVec3 middle_of(const double lower[3], const double upper[3]) {
+  return spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
+}
+
+double spore_triangle_mesh_volume(const SporeTriangleMesh *mesh) {
+  double lower[3], upper[3], volume = 0;
+  if (!mesh->vertex_count) return 0;
+  spore_mesh_bounds(mesh->vertices, mesh->vertex_count, 3, lower, upper);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     SporeVec3 p[3];
-    for (int k = 0; k < 3; k++)
-      p[k] = spore_vec3_sub(spore_mesh_vertex(mesh->vertices, mesh->triangles[3 * t + k]), middle);
+    corners_about(mesh, t, middle_of(lower, upper), p);
+    volume += spore_vec3_dot(p[0], spore_vec3_cross(p[1], p[2])) / 6;
+  }
+  return volume;
+}
+
+static void measure_triangles(const SporeTriangleMesh *mesh, SporeMeshReport *report) {
+  SporeVec3 middle = middle_of(report->lower, report->upper);
+  report->volume = spore_triangle_mesh_volume(mesh);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    SporeVec3 p[3];
+    corners_about(mesh, t, middle, p);
     double area = spore_vec3_length(spore_mesh_area_vector(p[0], p[1], p[2]));
     report->area += area;
-    report->volume += spore_vec3_dot(p[0], spore_vec3_cross(p[1], p[2])) / 6;
     report->degenerate_triangles += degenerate(p[0], p[1], p[2], area);
   }
 }

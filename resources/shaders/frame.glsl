@@ -7,4 +7,8 @@ layout(std140) uniform Frame {
   vec4 light;     // view space; w: distance of the target, m
   vec4 viewport;  // width, height, size of a pixel at distance 1, strength of the vignette
   vec4 up;        // world's up in view space; w: shadow map is there
+  vec4 clip_plane; // view space: hides what lies where this is above 0; zeros hide nothing
 };
+
+// Above 0: the plane hides the place.
+float beyond_clip(vec3 position) { return dot(clip_plane.xyz, position) + clip_plane.w; }

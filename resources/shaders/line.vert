@@ -21,6 +21,7 @@ void main() {
   vec2 normal = length2 > 1e-8 ? vec2(-run.y, run.x) * inversesqrt(length2) : vec2(1, 0);
   v_across = side;
   v_position = end ? b : a;
+  gl_ClipDistance[0] = -beyond_clip(v_position);
   gl_Position = end ? clip_b : clip_a;
   gl_Position.xy += normal * side * (width + 1.0) / viewport.xy * gl_Position.w;
 }

@@ -17,5 +17,6 @@ void main() {
   v_position = centre + sphere.w * (v_corner.x * right + v_corner.y * cross(right, forward));
   v_sphere = vec4(centre, sphere.w);
   v_kind = kind;
+  gl_ClipDistance[0] = -beyond_clip(centre);
   gl_Position = projection * vec4(v_position, 1.0);
 }

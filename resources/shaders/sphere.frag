@@ -16,6 +16,8 @@ void main() {
   float inside = v_sphere.w * v_sphere.w - dot(across, across);
   if (inside < 0.0) discard;
   vec3 position = v_ray - direction * sqrt(inside);
+  if (beyond_clip(position) > 0.0) position = v_ray + direction * sqrt(inside);
+  if (beyond_clip(position) > 0.0) discard;
   vec4 clip = shadow * vec4(position, 1.0);
 #else
   // The ray through this pixel from the eye: |t ray - centre| = radius, nearest t.
@@ -25,13 +27,19 @@ void main() {
   float inside = v_sphere.w * v_sphere.w - dot(miss, miss);
   if (inside < 0.0) discard;
   vec3 position = ray * (along - sqrt(inside));
+  float facing = 1.0; // -1: the near side is cut away, and the far side is seen from within
+  if (beyond_clip(position) > 0.0) {
+    position = ray * (along + sqrt(inside));
+    facing = -1.0;
+    if (beyond_clip(position) > 0.0 || position.z > 0.0) discard;
+  }
   vec4 clip = projection * vec4(position, 1.0);
 #endif
 #ifndef HIDDEN
   gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
 #endif
 #if !DEPTH_ONLY
-  vec3 normal = (position - v_sphere.xyz) / v_sphere.w;
+  vec3 normal = facing * (position - v_sphere.xyz) / v_sphere.w;
   vec3 albedo = v_value >= 0.0 ? scale_colour(v_value) : colour;
 #if QUALITY
   float open = ambient_open(), lit = light_reaches(position, normal);
@@ -39,6 +47,6 @@ void main() {
 #else
   vec3 outcome = shade_plain(albedo, position, normal);
 #endif
-  result = finish(outcome, dim);
+  result = finish(outcome * (0.8 + 0.2 * facing), dim);
 #endif
 }

@@ -59,6 +59,8 @@ void main() {
     bump -= normal * dot(normal, bump);
     outcome = shade_tissue(max(albedo, 0.0), wetness, v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
   }
+  // Behind a cut, the inside is told from the outside.
+  if (!gl_FrontFacing && dot(clip_plane.xyz, clip_plane.xyz) > 0.0) outcome *= 0.6;
   float rim = 1.0 - clamp(dot(normal, normalize(-v_position)), 0.0, 1.0);
   outcome += selected * vec3(0.10, 0.42, 1.0) * (0.04 + 0.9 * rim * rim * rim);
   result = finish(outcome, 1.0);

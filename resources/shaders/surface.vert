@@ -18,6 +18,7 @@ void main() {
 #else
   gl_Position = projection * vec4(v_position, 1.0);
 #endif
+  gl_ClipDistance[0] = -beyond_clip(v_position);
 #if !DEPTH_ONLY
   v_normal = mat3(rotation) * normal;
   v_rest = rest.xyz;

@@ -1048,6 +1048,11 @@ def render_makes_a_picture():
     head = picture.read_bytes()[:24]
     assert head[:8] == b"\x89PNG\r\n\x1a\n" and int.from_bytes(head[16:20], "big") == 320
     refuses("render", SCENES / "minimal.spore", "-o", picture, "--size", "0x9", says=["0x9"])
+    for plane in ("0,0,0,1", "1,0,0", "1,0,0,0,0", "1,0,nan,0", "a", "1,0,0,1,", ""):
+        refuses("render", SCENES / "minimal.spore", "-o", picture, "--clip", plane, says=[f"'{plane}' is no plane"])
+    whole = picture.read_bytes()
+    spore("render", SCENES / "minimal.spore", "-o", picture, "--size", "320x200", "--clip", "0,2,0,0.06", env=environment)
+    assert picture.read_bytes() != whole, "the ball is cut in half"
     refuses("render", SCENES / "minimal.spore", says=["-o"])
     refuses("render", SCENES / "minimal.spore", "-o", "no/such/folder/x.png", says=["no/such/folder"])
 

@@ -108,6 +108,43 @@ static void test_depth_and_stride(void) {
   bench_close(&bench);
 }
 
+static Picture draw_clipped(const Bench *bench, const SporeClip *clip, gboolean antialias) {
+  const SporeCamera camera = straight_camera(0.3);
+  const SporeRenderOptions options = {.width = 200, .height = 150, .antialias = antialias, .clip = *clip};
+  Picture picture = {200, 150, g_malloc(200 * 150 * 4)};
+  g_assert_true(spore_renderer_draw(bench->renderer, &camera, &options, picture.pixels, 200 * 4, NULL));
+  return picture;
+}
+
+/* A plane takes the near half of a body away, and what the body holds is seen; a plane behind which all lies, and the
+ * other side of the first one, leave the picture as it was. */
+static void test_clip(void) {
+  const SporeSurfaceStyle style = {{0.7f, 0.02f, 0.02f}, 0, FALSE, FALSE, FALSE};
+  static const double within[4] = {0, 0, -0.01, 0.009}, half[4] = {0.01, 0.02, 0.002, 0.008};
+  const SporeClip none = {0}, all = {{0, 0, 1}, 0.2}, near = {{0, 0, 1}, 0}, far = {{0, 0, -1}, 0};
+  Bench bench = bench_open();
+  SporeTriangleMesh mesh = make_organ(0.05);
+  spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles, mesh.triangle_count,
+                             &style);
+  spore_renderer_add_spheres(bench.renderer, within, 1, blue, NULL, FALSE);
+  spore_renderer_add_spheres(bench.renderer, half, 1, blue, NULL, FALSE);
+  for (int antialias = 0; antialias < 2; antialias++) {
+    Picture whole = draw_clipped(&bench, &none, antialias), same = draw_clipped(&bench, &all, antialias);
+    Picture open = draw_clipped(&bench, &near, antialias), other = draw_clipped(&bench, &far, antialias);
+    PictureDifference difference = picture_compare(&whole, &same);
+    g_assert_cmpfloat(difference.mean, <, 0.02);
+    g_assert_true(is_red(&whole, 100, 75));
+    g_assert_true(is_blue(&open, 100, 75));
+    g_assert_true(is_blue(&open, 100 + 7, 75 - 14)); /* the sphere that the plane goes through, from within */
+    g_assert_true(is_red(&open, 100 - 20, 75));
+    g_assert_true(is_red(&other, 100, 75));
+    g_assert_cmpfloat(picture_compare(&whole, &open).mean, >, 2);
+    picture_clear(&whole), picture_clear(&same), picture_clear(&open), picture_clear(&other);
+  }
+  spore_triangle_mesh_clear(&mesh);
+  bench_close(&bench);
+}
+
 /* Far from the world's origin single precision no longer resolves millimetres: the same picture must come out. */
 static void test_far_from_the_origin(void) {
   const SporeSurfaceStyle style = {{0.45f, 0.09f, 0.075f}, 0.5f, FALSE, FALSE, FALSE};
@@ -251,6 +288,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/renderer/impostors-fast", test_impostors_fast);
   g_test_add_func("/render/renderer/impostors-full", test_impostors_full);
+  g_test_add_func("/render/renderer/clip", test_clip);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);

@@ -86,6 +86,56 @@ static void test_follows_the_simulation(void) {
   setting_close(&setting);
 }
 
+/* What a plane hides is not picked: of the ball, the inside is; of a sphere, too. */
+static void test_picked_behind_a_plane(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeVec3 point = {0};
+  const SporeClip half = {{0, 1, 0}, 0.06}, all = {{0, 1, 0}, -1};
+  spore_stage_set_clip(setting.stage, &half);
+  g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0.04, 1e-4);
+  spore_stage_set_clip(setting.stage, &all);
+  g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, 0);
+  GError *error = NULL;
+  SporeObject *floor = spore_document_find(setting.document, "body", "floor");
+  spore_document_remove(setting.document, spore_object_child_of(floor, "visual"), &error);
+  g_assert_no_error(error);
+  const SporeClip top = {{0, 1, 0}, -0.001};
+  spore_stage_set_clip(setting.stage, &top);
+  spore_stage_rebuild(setting.stage, NULL);
+  g_assert_cmpuint(pick_down(&setting, 0.03, 0.03, &point), ==, id_of(&setting, "floor"));
+  g_assert_cmpfloat(point.y, <, -0.001);
+  spore_stage_set_clip(setting.stage, &all);
+  g_assert_cmpuint(pick_down(&setting, 0.03, 0.03, &point), ==, 0);
+  setting_close(&setting);
+}
+
+/* What is held goes with the body, until the body is drawn with other triangles. */
+static void test_held_places(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeVec3 point = {0}, now = {0};
+  SporeStageHold hold;
+  SporeTriangleMesh surface;
+  const SporeVec3 above = {0.004, 1, 0.003}, down = {0, -1, 0};
+  setting_run(&setting, 0);
+  g_assert_cmpuint(spore_stage_pick_hold(setting.stage, above, down, &point, &hold), ==, id_of(&setting, "ball"));
+  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
+  for (int i = 0; i < 60; i++) spore_world_step(setting.simulation->world);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting.simulation->world);
+  spore_stage_update(setting.stage, snapshot);
+  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
+  g_assert_cmpfloat_with_epsilon(now.x, point.x, 1e-9);
+  g_assert_cmpfloat_with_epsilon(now.y, point.y - 0.5 * 9.81 * snapshot->time_s * snapshot->time_s, 4e-4);
+  g_assert_true(spore_stage_surface(setting.stage, hold.body, &surface));
+  g_assert_cmpuint(surface.vertex_count, ==, hold.count);
+  hold.count++;
+  g_assert_false(spore_stage_held(setting.stage, &hold, &now));
+  hold.count--, hold.body = 0;
+  g_assert_false(spore_stage_held(setting.stage, &hold, &now));
+  setting_close(&setting);
+}
+
 /* A body without a mesh shows its spheres. */
 static void test_spheres_alone(void) {
   Setting setting = setting_open(MINIMAL);
@@ -97,6 +147,11 @@ static void test_spheres_alone(void) {
   spore_stage_rebuild(setting.stage, NULL);
   g_assert_cmpuint(pick_down(&setting, 0.03, 0.03, &point), ==, id_of(&setting, "floor"));
   g_assert_cmpfloat_with_epsilon(point.y, 0, 1e-6); /* the top of a sphere */
+  SporeStageHold hold;
+  SporeVec3 now = {0};
+  spore_stage_pick_hold(setting.stage, spore_vec3(0.03, 1, 0.03), spore_vec3(0, -1, 0), &point, &hold);
+  g_assert_true(hold.on_sphere && spore_stage_held(setting.stage, &hold, &now));
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
   spore_document_undo(setting.document);
   spore_stage_rebuild(setting.stage, NULL);
   g_assert_cmpuint(pick_down(&setting, 0.06, 0.06, &point), ==, id_of(&setting, "floor"));
@@ -445,6 +500,8 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
   g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
+  g_test_add_func("/render/stage/picked-behind-a-plane", test_picked_behind_a_plane);
+  g_test_add_func("/render/stage/held-places", test_held_places);
   g_test_add_func("/render/stage/sphere-scale", test_sphere_scale);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);

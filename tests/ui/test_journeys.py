@@ -595,14 +595,26 @@ def region_placed_in_the_view():
         assert saved(editor, "placed") == before
 
 
-def picture_of_view(editor):
-    """(pixels, bytes a pixel, bytes a row, width, height) of the view, without its tools and figures."""
+def picture_of_view(editor, top=60):
+    """(pixels, bytes a pixel, bytes a row, width, height) of the view from so many pixels below its top, without its tools and figures."""
     import gi
     gi.require_version("Gdk", "3.0")
     from gi.repository import Gdk
     x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
-    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y + 60, width, height - 200)
-    return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 200
+    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y + top, width, height - 140 - top)
+    return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 140 - top
+
+
+def keep_picture(editor, name):
+    """Keeps a picture of the screen in the folder that SPORE_PICTURES names, for who wants to look at it."""
+    folder_ = os.environ.get("SPORE_PICTURES")
+    if not folder_:
+        return
+    import gi
+    gi.require_version("Gdk", "3.0")
+    from gi.repository import Gdk
+    root = Gdk.get_default_root_window()
+    Gdk.pixbuf_get_from_window(root, 0, 0, root.get_width(), root.get_height()).savev(f"{folder_}/{name}.png", "png", [], [])
 
 
 def yellow(editor):
@@ -1330,10 +1342,10 @@ def scissors_cut():
         ui.wait(lambda: picture_sum(editor) == whole, "the first picture")
 
 
-def picture_sum(editor):
+def picture_sum(editor, top=60):
     """A number for the picture in the view: the same picture has the same."""
     import zlib
-    return zlib.crc32(picture_of_view(editor)[0])
+    return zlib.crc32(picture_of_view(editor, top)[0])
 
 
 @check
@@ -1827,6 +1839,122 @@ def link_in(editor, element, name):
 
 def vector(text):
     return [float(number) for number in text.split()]
+
+
+def a_box(name):
+    """A body alone: a box of 60 mm, 40 mm deep, and its row."""
+    path = folder("scenes") / name / "scene.spore"
+    path.parent.mkdir(exist_ok=True)
+    corners = [(x, y, z) for z in (-0.02, 0.02) for y in (-0.03, 0.03) for x in (-0.03, 0.03)]
+    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+    (path.parent / "box.off").write_bytes(shapes.off(corners, faces))
+    (path.parent / "open.off").write_bytes(shapes.off(corners, faces[:-2]))
+    path.write_text('<spore version="1.0"><assets><mesh name="box" file="box.off"/><mesh name="open" file="open.off"/></assets><bodies>'
+                    '<body name="box" role="unmovable"><visual mesh="box"/></body>'
+                    '<body name="hollow" role="unmovable" position="0 0.08 0"><visual mesh="open"/></body></bodies></spore>\n')
+    return path
+
+
+def millimetres(editor, pattern):
+    """What the list of measures says, as a number; None: it says nothing of the kind."""
+    label = editor.look("label", pattern)
+    return float(re.search(pattern, label.get_name()).group(1)) if label else None
+
+
+@check
+def what_is_seen_is_measured():
+    """distance, angle and volume are measured by clicks, listed, and removed one by one and all together; Escape goes back; an open surface has no volume."""
+    with start(a_box("measured")) as editor:
+        ui.wait(lambda: editor.row("hollow"), "the scene")
+        editor.act("select", "s", "bodies/hollow")
+        editor.act("hide")
+        editor.act("frame")
+        editor.act("view", "s", "front")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle, step = (x + width // 2, y + height // 2), 25
+
+        def click(across, up):
+            editor.mouse("mousemove", middle[0] + across, middle[1] - up, "click", 1)
+
+        def distance(number, *places):
+            editor.act("measure", "s", "distance")
+            editor.find("label", r"click on the first place \(1 of 2\)")
+            click(*places[0])
+            editor.find("label", r"click on the second place \(2 of 2\)")
+            click(*places[1])
+            return ui.wait(lambda: millimetres(editor, rf"^{number}  Distance ([\d.]+) mm$"), "the distance")
+
+        assert not editor.enabled("clear-measures")
+        once = distance(1, (0, 0), (step, 0))
+        twice = distance(2, (-step, 0), (step, 0))
+        assert once > 1 and abs(twice / once - 2) < 0.02, (once, twice)
+        editor.act("measure", "s", "angle")
+        for place in ((step, 0), (0, 0), (0, step)):
+            click(*place)
+        assert abs(ui.wait(lambda: millimetres(editor, r"^3  Angle ([\d.]+)°$"), "the angle") - 90) < 0.2
+        editor.act("measure", "s", "volume")
+        click(0, 0)
+        assert ui.wait(lambda: millimetres(editor, r"^4  Volume ([\d.]+) cm³$"), "the volume") == 144
+        keep_picture(editor, "measures")
+
+        editor.press(editor.find("push button", "^Remove measure 2$"))
+        ui.wait(lambda: not editor.look("label", "^2  Distance") and editor.look("label", "^1  Distance"), "the measure to go")
+        editor.focus()
+        editor.keys("m")
+        click(0, 0)
+        editor.find("label", r"\(2 of 2\)")
+        editor.keys("Escape")
+        editor.find("label", r"\(1 of 2\)")
+        editor.keys("space")
+        editor.find("label", r"\(2 of 2\)")
+        editor.keys("Escape", "Escape")
+        ui.wait(lambda: not editor.look("label", r" of 2\)"), "the measuring to end")
+        assert not editor.look("label", "^5  "), "nothing was made"
+        editor.act("clear-measures")
+        ui.wait(lambda: not editor.look("label", "^1  Distance"), "the measures to go")
+
+        editor.act("show-all")
+        editor.act("select", "s", "bodies/hollow")
+        editor.act("isolate")
+        editor.act("frame")
+        editor.act("measure", "s", "volume")
+        click(0, 0)
+        ui.wait(lambda: "not closed" in (editor.message() or ""), "the refusal")
+        assert not editor.enabled("clear-measures")
+
+
+@check
+def a_plane_opens_the_view():
+    """a plane hides what lies before it, the slider moves it, what it hides is not picked, its other side can be hidden, and it goes."""
+    picture = lambda editor: picture_sum(editor, 120)  # below the slider
+    with start(two_balls("opened")) as editor:
+        left, right, above = on_balls(editor)
+        assert not editor.look("slider", "^Place of the cut plane$")
+        whole = picture(editor)
+        editor.press(editor.find("toggle button", "^Look inside$"))
+        item = editor.find("menu item|push button|check box|radio button", "^Plane across Z$")
+        editor.press(item)
+        ui.wait(lambda: editor.state("cut") == "z", "the plane")
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.showing(item), "the menu to close")
+        slider = editor.find("slider", "^Place of the cut plane$")
+        half = ui.wait(lambda: (lambda now: now != whole and now)(picture(editor)), "the balls to be cut")
+        keep_picture(editor, "cut")
+        editor.mouse("mousemove", *left, "click", 1)
+        ui.wait(lambda: editor.enabled("delete"), "what is seen to be picked")
+        editor.act("select", "s", "solver")
+        editor.set_number(slider, 1)
+        ui.wait(lambda: picture(editor) not in (whole, half), "all to be hidden")
+        editor.mouse("mousemove", *left, "click", 1, "sleep", 0.2)
+        assert not editor.enabled("delete"), "what is hidden is not picked"
+        editor.act("cut-other-side")
+        editor.mouse("mousemove", *left, "click", 1)
+        ui.wait(lambda: editor.enabled("delete"), "the other side to be hidden")
+        editor.act("select", "s", "solver")
+        editor.act("cut", "s", "none")
+        ui.wait(lambda: picture(editor) == whole, "the plane to go")
+        assert not editor.look("slider", "^Place of the cut plane$")
 
 
 @check

@@ -16,6 +16,7 @@ typedef struct SporeFilming {
   double fps, speed;       /* pictures a second; simulated seconds a second: 1 is real time, .5 slow motion */
   const char *camera;      /* NULL: see spore_stage_camera */
   SporeStageOptions shown; /* what is drawn */
+  SporeClip clip;          /* what is hidden */
   guint count;             /* of simulations, at most SPORE_FILMING_MOST: at time 0, borrowed, and run to the end */
   SporeDocument *documents[SPORE_FILMING_MOST];
   SporeSimulation *simulations[SPORE_FILMING_MOST];

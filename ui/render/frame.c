@@ -53,14 +53,28 @@ static void rotation(float out[16], SporeVec3 right, SporeVec3 up, SporeVec3 for
   memcpy(out, columns, sizeof columns);
 }
 
-void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables, gboolean grid, int width,
-                         int height) {
+/* The plane in view space, with the eye at the origin. */
+static void set_clip(SporeFrame *frame, const SporeClip *clip, SporeVec3 right, SporeVec3 up, SporeVec3 forward) {
+  float *out = frame->block.clip;
+  out[0] = (float)spore_vec3_dot(clip->normal, right), out[1] = (float)spore_vec3_dot(clip->normal, up);
+  out[2] = (float)-spore_vec3_dot(clip->normal, forward);
+  out[3] = (float)(spore_vec3_dot(clip->normal, frame->eye) - clip->distance);
+  frame->clips = spore_clip_is_on(clip);
+}
+
+void spore_frame_clip(const SporeFrame *frame, gboolean clips) {
+  if (clips && frame->clips) glEnable(GL_CLIP_DISTANCE0);
+  else glDisable(GL_CLIP_DISTANCE0);
+}
+
+void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables,
+                         const SporeRenderOptions *options, int width, int height) {
   SporeVec3 right, up, forward;
   *frame = (SporeFrame){0};
   spore_camera_eye(camera, &frame->eye, &right, &up, &forward);
   double distance = camera->distance, slope = tan(camera->field_of_view / 2);
   depth_range(drawables, frame->eye, forward, &frame->near, &frame->far);
-  if (grid || !(frame->far > 0)) {
+  if (options->grid || !(frame->far > 0)) {
     frame->near = MIN(frame->near, distance * 0.05);
     frame->far = MAX(frame->far, distance * 12);
   }
@@ -75,6 +89,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray
   block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
   block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
+  set_clip(frame, &options->clip, right, up, forward);
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;
 }
 

@@ -61,12 +61,14 @@ gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
   glUniform1f(program->near, (float)frame->near);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
+  spore_frame_clip(frame, hidden); /* the grid is not of the scene */
   if (hidden) {
     glDepthFunc(GL_GREATER);
     draw_groups(drawables, frame, program, TRUE);
     glDepthFunc(GL_LEQUAL);
   }
   draw_groups(drawables, frame, program, FALSE);
+  spore_frame_clip(frame, FALSE);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   return TRUE;

@@ -11,6 +11,7 @@ typedef struct Pane {
 
 struct SporePanes {
   int width, height; /* of a pane */
+  SporeClip clip;
   SporeOffscreen *offscreen;
   GPtrArray *row; /* of Pane */
   guint8 *pixels; /* of all panes */
@@ -33,6 +34,8 @@ SporePanes *spore_panes_new(int width, int height, GError **error) {
   panes->row = g_ptr_array_new_with_free_func(free_pane);
   return panes;
 }
+
+void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip) { panes->clip = *clip; }
 
 void spore_panes_free(SporePanes *panes) {
   if (!panes) return;
@@ -68,7 +71,8 @@ int spore_panes_height(const SporePanes *panes) { return panes->height; }
 const char *spore_panes_renderer(const SporePanes *panes) { return spore_offscreen_renderer(panes->offscreen); }
 
 const guint8 *spore_panes_draw(SporePanes *panes, GError **error) {
-  const SporeRenderOptions how = {.width = panes->width, .height = panes->height, .antialias = TRUE};
+  const SporeRenderOptions how = {
+      .width = panes->width, .height = panes->height, .antialias = TRUE, .clip = panes->clip};
   gsize stride = (gsize)spore_panes_width(panes) * 4;
   for (guint i = 0; i < panes->row->len; i++) {
     Pane *pane = panes->row->pdata[i];

@@ -9,6 +9,8 @@ typedef struct SporePanes SporePanes;
 /* width, height: pixels of each simulation's picture. NULL with a GError: there is no graphics. Used on the thread that
  * made it alone. */
 SporePanes *spore_panes_new(int width, int height, GError **error);
+/* What is hidden in all of them; at first nothing is. */
+void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip);
 void spore_panes_free(SporePanes *panes); /* NULL is allowed */
 /* Adds a simulation at the right of those that are there; document and simulation are borrowed. camera: of the scene,
  * by name; NULL: see spore_stage_camera. FALSE with a GError: no such camera. */

@@ -50,13 +50,14 @@ enum { SPORE_UNIT_OCCLUSION, SPORE_UNIT_SHADOW, SPORE_UNIT_COLOUR, SPORE_UNIT_DE
 
 /* What all shaders know; laid out as the uniform block `Frame` (std140). */
 typedef struct SporeFrameBlock {
-  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4];
+  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4];
 } SporeFrameBlock;
 
 typedef struct SporeFrame {
   SporeFrameBlock block;
   SporeVec3 eye;    /* world, m */
   double near, far; /* m */
+  gboolean clips;   /* something may be hidden by the plane */
 } SporeFrame;
 
 /* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the origin of
@@ -132,6 +133,9 @@ void spore_drawable_set_offset(const SporeDrawable *drawable, const SporeFrame *
 void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gsize count, gsize stride,
                                gboolean radius, gboolean set_origin);
 
+/* The plane of the frame clips what is drawn by shaders that write gl_ClipDistance, until it is told to stop. */
+void spore_frame_clip(const SporeFrame *frame, gboolean clips);
+
 /* Passes: draw every visible drawable of their kind (NULL entries are skipped) to the bound framebuffer. */
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, GError **error);
@@ -181,8 +185,8 @@ typedef struct SporePicture {
   SporeTarget shadow, depth, occlusion, smoothed, colour, glow, glare;
 } SporePicture;
 /* Draws into `screen` (prepared, without samples). largest: of a buffer's sides, pixels. */
-gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const SporeCamera *camera, gboolean grid,
-                            const SporeTarget *screen, int largest, GError **error);
+gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const SporeCamera *camera,
+                            const SporeRenderOptions *options, const SporeTarget *screen, int largest, GError **error);
 void spore_picture_clear(SporePicture *picture);
 
 #endif

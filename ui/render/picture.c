@@ -94,14 +94,14 @@ static gboolean draw_glare(SporePicture *picture, SporeCanvas *canvas, SporeFram
   return filter(canvas, SPORE_PROGRAM_GLOW, &picture->glow, 0, 1, error);
 }
 
-gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const SporeCamera *camera, gboolean grid,
-                            const SporeTarget *screen, int largest, GError **error) {
+gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const SporeCamera *camera,
+                            const SporeRenderOptions *options, const SporeTarget *screen, int largest, GError **error) {
   int scale = MAX(screen->width, screen->height) * SUPERSAMPLES <= largest ? SUPERSAMPLES : 1;
   SporeFrame small, large;
   if (!prepare(picture, screen, scale, error)) return FALSE;
-  spore_frame_prepare(&small, camera, canvas->drawables, grid, screen->width, screen->height);
+  spore_frame_prepare(&small, camera, canvas->drawables, options, screen->width, screen->height);
   spore_frame_add_shadow(&small, camera, canvas->drawables);
-  spore_frame_prepare(&large, camera, canvas->drawables, grid, picture->colour.width, picture->colour.height);
+  spore_frame_prepare(&large, camera, canvas->drawables, options, picture->colour.width, picture->colour.height);
   spore_frame_add_shadow(&large, camera, canvas->drawables);
 
   spore_canvas_set_frame(canvas, &small);
@@ -110,7 +110,8 @@ gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const Sp
       !draw_occlusion(picture, canvas, error))
     return FALSE;
   spore_canvas_set_frame(canvas, &large);
-  if (!draw_colour(picture, canvas, &large, grid, error) || !draw_glare(picture, canvas, &large, error)) return FALSE;
+  if (!draw_colour(picture, canvas, &large, options->grid, error) || !draw_glare(picture, canvas, &large, error))
+    return FALSE;
   spore_canvas_set_frame(canvas, &small);
   bind_texture(SPORE_UNIT_COLOUR, picture->colour.colour);
   bind_texture(SPORE_UNIT_GLOW, picture->glow.colour);

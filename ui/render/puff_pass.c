@@ -70,6 +70,7 @@ gboolean spore_puff_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
     if (!program) program = spore_programs_get(programs, SPORE_PROGRAM_PUFF, variant, error);
     if (!program) return FALSE;
     glUseProgram(program->id);
+    spore_frame_clip(frame, TRUE);
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
     spore_drawable_set_offset(drawable, frame, program->offset);
@@ -79,6 +80,7 @@ gboolean spore_puff_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)group->count);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
+    spore_frame_clip(frame, FALSE);
   }
   return TRUE;
 }

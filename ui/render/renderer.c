@@ -180,7 +180,8 @@ static void set_state(void) {
   glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, gboolean grid, GError **error) {
+static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                          GError **error) {
   SporeFrame frame;
   const SporeTarget *screen = &renderer->screen, *target = screen;
   int width = screen->width, height = screen->height;
@@ -190,11 +191,11 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, gb
       return FALSE;
     target = &renderer->sampled;
   }
-  spore_frame_prepare(&frame, camera, renderer->canvas.drawables, grid, width, height);
+  spore_frame_prepare(&frame, camera, renderer->canvas.drawables, options, width, height);
   spore_canvas_set_frame(&renderer->canvas, &frame);
   spore_target_bind(target);
   glClear(GL_DEPTH_BUFFER_BIT); /* the background covers what nothing else does */
-  if (!spore_canvas_draw(&renderer->canvas, &frame, SPORE_VARIANT_FAST, grid, error)) return FALSE;
+  if (!spore_canvas_draw(&renderer->canvas, &frame, SPORE_VARIANT_FAST, options->grid, error)) return FALSE;
   if (target == screen) return TRUE;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, screen->framebuffer);
@@ -233,8 +234,8 @@ gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera,
   set_state();
   if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24, error))
     return FALSE;
-  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options->grid,
+  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options,
                                                            &renderer->screen, renderer->largest, error)
-                                      : draw_fast(renderer, camera, options->grid, error);
+                                      : draw_fast(renderer, camera, options, error);
   return drawn && read_back(width, height, pixels, stride, error);
 }

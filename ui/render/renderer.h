@@ -61,10 +61,21 @@ void spore_renderer_remove(SporeRenderer *renderer, guint handle);
 void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible);
 void spore_renderer_clear(SporeRenderer *renderer);
 
+/* A plane that hides what lies before it, at places p with normal . p > distance. Zeros hide nothing. */
+typedef struct SporeClip {
+  SporeVec3 normal; /* unit, world */
+  double distance;  /* m */
+} SporeClip;
+static inline gboolean spore_clip_hides(const SporeClip *clip, SporeVec3 place) {
+  return spore_vec3_dot(clip->normal, place) > clip->distance;
+}
+static inline gboolean spore_clip_is_on(const SporeClip *clip) { return spore_vec3_length(clip->normal) > 0; }
+
 typedef struct SporeRenderOptions {
   int width, height;
-  gboolean grid; /* floor grid and axes: editing; off for pictures */
+  gboolean grid; /* floor grid and axes: editing; off for pictures. Never clipped */
   gboolean antialias;
+  SporeClip clip; /* bodies are seen from inside where it takes their near side away */
 } SporeRenderOptions;
 /* Draws and reads back: pixels is height rows of `stride` bytes, top first, as CAIRO_FORMAT_RGB24 (native BGRx). */
 gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,

@@ -117,6 +117,8 @@ void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden) {
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_show(stage, stage->bodies->pdata[i]);
 }
 
+void spore_stage_set_clip(SporeStage *stage, const SporeClip *clip) { stage->clip = *clip; }
+
 void spore_stage_set_selection(SporeStage *stage, const guint32 *object_ids, gsize count) {
   g_hash_table_remove_all(stage->selection);
   for (gsize i = 0; i < count; i++) {

@@ -60,6 +60,8 @@ SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
 /* Hides bodies, by their objects' ids as pointers. Borrowed until the next call; call again when the set has changed.
  * NULL: none. What is hidden is not picked. */
 void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden);
+/* What the plane hides is not picked; see SporeRenderOptions, which has it drawn so. */
+void spore_stage_set_clip(SporeStage *stage, const SporeClip *clip);
 void spore_stage_set_selection(SporeStage *stage, const guint32 *object_ids, gsize count);
 /* The scene's camera of that name (tools > camera); NULL: the first camera, else one that sees everything at this
  * aspect. Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides. FALSE with a GError when
@@ -70,5 +72,20 @@ gboolean spore_stage_has_camera(const SporeStage *stage);
 void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]);
 /* Body object under a ray: id, 0 none; *point is the hit. */
 guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point);
+/* A place on a body as it is drawn, which goes with the body. */
+typedef struct SporeStageHold {
+  guint32 body;       /* object id */
+  gboolean on_sphere; /* else on a triangle of its surface */
+  gsize count;        /* of the spheres, or of the surface's vertices, when the place was picked */
+  guint32 corners[3]; /* of the triangle; of the sphere, its number is the first */
+  double at[3];       /* shares of the corners; on a sphere, m from its centre */
+} SporeStageHold;
+/* As pick; *hold is set where a body is met. */
+guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point,
+                              SporeStageHold *hold);
+/* Where the place is now. FALSE: the body is gone, or drawn with other triangles. */
+gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *point);
+/* The surface of a body as it is drawn: borrowed, read only, until the stage changes. FALSE: it shows none. */
+gboolean spore_stage_surface(const SporeStage *stage, guint32 body, SporeTriangleMesh *surface);
 
 #endif

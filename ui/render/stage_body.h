@@ -67,6 +67,7 @@ struct SporeStage {
   SporeStageOptions options;
   GHashTable *selection; /* ids of bodies, as pointers */
   GHashTable *hidden;    /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
+  SporeClip clip;        /* what is not picked */
   GPtrArray *bodies;     /* SporeStageBody * */
   GHashTable *fit;       /* const SporeSphereSet * -> SporeStageFit * */
   guint contact_handle;

@@ -130,8 +130,10 @@ static gboolean meets_box(const double *points, gsize count, const double origin
   return enter <= leave;
 }
 
-/* Distance along the ray to a triangle, or HUGE_VAL (Moeller and Trumbore 1997). */
-static double meet_triangle(SporeVec3 origin, SporeVec3 direction, const double *points, const guint32 *corners) {
+/* Distance along the ray to a triangle, or HUGE_VAL (Moeller and Trumbore 1997). shares: of its corners in that place.
+ */
+static double meet_triangle(SporeVec3 origin, SporeVec3 direction, const double *points, const guint32 *corners,
+                            double shares[3]) {
   SporeVec3 a = spore_vec3_load(points + 3 * (gsize)corners[0]);
   SporeVec3 ab = spore_vec3_sub(spore_vec3_load(points + 3 * (gsize)corners[1]), a);
   SporeVec3 ac = spore_vec3_sub(spore_vec3_load(points + 3 * (gsize)corners[2]), a);
@@ -140,37 +142,95 @@ static double meet_triangle(SporeVec3 origin, SporeVec3 direction, const double 
   if (determinant == 0) return HUGE_VAL;
   double u = spore_vec3_dot(s, p) / determinant, v = spore_vec3_dot(direction, q) / determinant;
   double t = spore_vec3_dot(ac, q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : HUGE_VAL;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= 0)) return HUGE_VAL;
+  shares[0] = 1 - u - v, shares[1] = u, shares[2] = v;
+  return t;
 }
 
-static double meet_sphere(SporeVec3 origin, SporeVec3 direction, const double *sphere) {
+/* Distance along the ray to the sphere, to its far side where the near one is cut away; or HUGE_VAL. */
+static double meet_sphere(SporeVec3 origin, SporeVec3 direction, const double *sphere, const SporeClip *clip) {
   SporeVec3 to = spore_vec3_sub(spore_vec3_load(sphere), origin);
   double along = spore_vec3_dot(to, direction);
   double inside = sphere[3] * sphere[3] - (spore_vec3_dot(to, to) - along * along);
-  double t = inside >= 0 ? along - sqrt(inside) : -1;
-  return t >= 0 ? t : HUGE_VAL;
+  if (inside < 0 || along < sqrt(inside)) return HUGE_VAL;
+  double near = along - sqrt(inside), far = along + sqrt(inside);
+  if (!spore_clip_hides(clip, spore_vec3_add_scaled(origin, near, direction))) return near;
+  return spore_clip_hides(clip, spore_vec3_add_scaled(origin, far, direction)) ? HUGE_VAL : far;
 }
 
-static double meet_body(const SporeStageBody *body, SporeVec3 origin, SporeVec3 direction, double nearest) {
-  double o[3], d[3];
+static double meet_body(const SporeStageBody *body, const SporeClip *clip, SporeVec3 origin, SporeVec3 direction,
+                        double nearest, SporeStageHold *hold) {
+  double o[3], d[3], shares[3];
   spore_vec3_store(o, origin);
   spore_vec3_store(d, direction);
-  if (body->surface_handle && meets_box(body->surface.positions, body->surface.count, o, d, nearest))
-    for (gsize i = 0; i < body->triangle_count; i++)
-      nearest = MIN(nearest, meet_triangle(origin, direction, body->surface.positions, body->triangles + 3 * i));
-  for (gsize i = 0; body->solid && i < body->shown; i++)
-    nearest = MIN(nearest, meet_sphere(origin, direction, body->spheres + 4 * i));
+  const double *points = body->surface.positions;
+  if (body->surface_handle && meets_box(points, body->surface.count, o, d, nearest))
+    for (gsize i = 0; i < body->triangle_count; i++) {
+      double t = meet_triangle(origin, direction, points, body->triangles + 3 * i, shares);
+      if (!(t < nearest) || spore_clip_hides(clip, spore_vec3_add_scaled(origin, t, direction))) continue;
+      nearest = t;
+      *hold = (SporeStageHold){.body = body->object, .count = body->surface.count};
+      memcpy(hold->corners, body->triangles + 3 * i, sizeof hold->corners);
+      memcpy(hold->at, shares, sizeof hold->at);
+    }
+  for (gsize i = 0; body->solid && i < body->shown; i++) {
+    double t = meet_sphere(origin, direction, body->spheres + 4 * i, clip);
+    if (!(t < nearest)) continue;
+    nearest = t;
+    *hold = (SporeStageHold){.body = body->object, .on_sphere = TRUE, .count = body->shown, .corners = {(guint32)i}};
+    SporeVec3 point = spore_vec3_add_scaled(origin, t, direction);
+    spore_vec3_store(hold->at, spore_vec3_sub(point, spore_vec3_load(body->spheres + 4 * i)));
+  }
   return nearest;
 }
 
-guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point) {
+guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point,
+                              SporeStageHold *hold) {
   double nearest = HUGE_VAL;
   guint32 picked = 0;
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
-    double t = spore_stage_shows(stage, body->object) ? meet_body(body, origin, direction, nearest) : HUGE_VAL;
+    double t = spore_stage_shows(stage, body->object) ? meet_body(body, &stage->clip, origin, direction, nearest, hold)
+                                                      : HUGE_VAL;
     if (t < nearest) nearest = t, picked = body->object;
   }
   if (picked) *point = spore_vec3_add_scaled(origin, nearest, direction);
   return picked;
+}
+
+guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point) {
+  SporeStageHold hold;
+  return spore_stage_pick_hold(stage, origin, direction, point, &hold);
+}
+
+static const SporeStageBody *find_body(const SporeStage *stage, guint32 object) {
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    if (body->object == object) return body;
+  }
+  return NULL;
+}
+
+gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *point) {
+  const SporeStageBody *body = find_body(stage, hold->body);
+  if (!body || hold->count != (hold->on_sphere ? body->shown : body->surface.count)) return FALSE;
+  if (hold->on_sphere) {
+    *point = spore_vec3_add(spore_vec3_load(body->spheres + 4 * hold->corners[0]), spore_vec3_load(hold->at));
+    return TRUE;
+  }
+  *point = spore_vec3(0, 0, 0);
+  for (int k = 0; k < 3; k++)
+    *point = spore_vec3_add_scaled(*point, hold->at[k],
+                                   spore_vec3_load(body->surface.positions + 3 * (gsize)hold->corners[k]));
+  return TRUE;
+}
+
+gboolean spore_stage_surface(const SporeStage *stage, guint32 body, SporeTriangleMesh *surface) {
+  const SporeStageBody *found = find_body(stage, body);
+  if (!found || !found->surface_handle) return FALSE;
+  *surface = (SporeTriangleMesh){.vertex_count = found->surface.count,
+                                 .triangle_count = found->triangle_count,
+                                 .vertices = found->surface.positions,
+                                 .triangles = (uint32_t *)found->triangles};
+  return TRUE;
 }

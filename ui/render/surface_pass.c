@@ -169,7 +169,7 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   glUniform1f(program->selected, style->selected ? 1 : 0);
   glUniform1i(program->material, style->material);
   glUniform3fv(program->axis, 1, surface->axis);
-  if (surface->closed && !style->wireframe) glEnable(GL_CULL_FACE);
+  if (surface->closed && !style->wireframe && !frame->clips) glEnable(GL_CULL_FACE);
   else glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, style->wireframe && colours ? GL_LINE : GL_FILL);
   glBindVertexArray(surface->vertex_array);
@@ -184,12 +184,14 @@ gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, Spore
   if (!program) return FALSE;
   gboolean colours = variant < SPORE_VARIANT_DEPTH;
   glUseProgram(program->id);
+  spore_frame_clip(frame, TRUE);
   for (guint i = 0; i < drawables->len; i++) {
     const SporeDrawable *drawable = drawables->pdata[i];
     if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
     const SporeSurfaceGroup *surface = (const SporeSurfaceGroup *)drawable;
     if (colours || !surface->style.wireframe) draw_surface(surface, frame, program, colours);
   }
+  spore_frame_clip(frame, FALSE);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   return TRUE;

@@ -109,6 +109,11 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
     emit_place(self, "picked", event->x, event->y);
     return;
   }
+  if (spore_viewport_measures_now(self)) {
+    self->beside = !spore_viewport_measures_press(self, event->x, event->y);
+    self->pressed_x = event->x, self->pressed_y = event->y;
+    return;
+  }
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && spore_viewport_hand_press(self)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
@@ -154,8 +159,8 @@ gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, S
       spore_viewport_hand_squeeze(self, SPORE_HAND_RESTS);
     return GDK_EVENT_STOP;
   }
-  if (self->beside && self->document && !spore_viewport_edits_regions(self))
-    spore_editor_document_select(self->document, 0);
+  gboolean selects = !spore_viewport_edits_regions(self) && !spore_viewport_measures_now(self);
+  if (self->beside && self->document && selects) spore_editor_document_select(self->document, 0);
   self->beside = FALSE;
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
@@ -173,7 +178,8 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   }
   switch (self->drag) {
   case DRAG_NONE:
-    if (self->anchor_count) gtk_widget_queue_draw(area); /* the line to the cursor */
+    if (self->anchor_count || spore_viewport_measures_now(self))
+      gtk_widget_queue_draw(area); /* the line to the cursor */
     if (self->picking) emit_place(self, "pointed", event->x, event->y);
     return GDK_EVENT_PROPAGATE;
   case DRAG_ORBIT:
@@ -235,17 +241,23 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);
     else if (self->picking) spore_activate(area, "pick-back", NULL);
+    else if (spore_viewport_measures_back(self)) break;
     else if (has_whole_screen(area)) spore_activate(area, "present", NULL);
     else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
     break;
   case GDK_KEY_space:
-    if (!self->picking) return GDK_EVENT_PROPAGATE;
-    emit_place(self, "picked", 0.5 * width_of(self), 0.5 * height_of(self));
+    if (self->picking) emit_place(self, "picked", 0.5 * width_of(self), 0.5 * height_of(self));
+    else if (spore_viewport_measures_now(self))
+      spore_viewport_measures_press(self, 0.5 * width_of(self), 0.5 * height_of(self));
+    else return GDK_EVENT_PROPAGATE;
     break;
   case GDK_KEY_Return:
   case GDK_KEY_KP_Enter:
     if (!self->picking) return GDK_EVENT_PROPAGATE;
     spore_activate(area, "pick-done", NULL);
+    break;
+  case GDK_KEY_m:
+    spore_activate(area, "measure", g_variant_new_string("distance"));
     break;
   case GDK_KEY_h:
     spore_activate(area, "hide", NULL);

@@ -5,7 +5,6 @@
 #define MARK_PIXELS 4.5   /* radius as drawn */
 #define REACH_PIXELS 10.0 /* distance from a mark or line within which a click meets the link */
 #define OUTLINE_PIXELS 7.0
-#define CROSS_PIXELS 9.0 /* arm of the cross in the middle while something is picked */
 
 typedef struct Mark {
   guint32 link; /* object id */
@@ -76,14 +75,10 @@ static void draw_outline(SporeViewport *self, cairo_t *cr) {
   cairo_stroke(cr);
 }
 
-/* The places so far, and a line from there to the cursor. The middle of the view is what the space bar picks. */
+/* The places so far, and a line from there to the cursor. */
 static void draw_picking(SporeViewport *self, cairo_t *cr) {
-  double x = 0.5 * gtk_widget_get_allocated_width(self->area), y = 0.5 * gtk_widget_get_allocated_height(self->area);
-  const double cross[4][2] = {
-      {x - CROSS_PIXELS, y}, {x + CROSS_PIXELS, y}, {x, y - CROSS_PIXELS}, {x, y + CROSS_PIXELS}};
   double at[2], cursor[2] = {self->last_x, self->last_y};
-  draw_line(cr, cross[0], cross[1], TRUE);
-  draw_line(cr, cross[2], cross[3], TRUE);
+  spore_viewport_draw_cross(self, cr);
   draw_outline(self, cr);
   for (guint i = 0; i < self->anchor_count; i++) {
     if (!spore_viewport_project(self, self->anchors[i], &at[0], &at[1])) continue;

@@ -44,14 +44,7 @@ void spore_viewport_places_release(SporeViewport *self, gboolean keep) {
 static void draw_number(SporeViewport *self, cairo_t *cr, guint number, double x, double y) {
   char text[16];
   g_snprintf(text, sizeof text, "%u", number);
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, text);
-  cairo_move_to(cr, x + 9, y - 22);
-  pango_cairo_layout_path(cr, layout);
-  cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-  cairo_set_line_width(cr, 3);
-  cairo_stroke_preserve(cr);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_fill(cr);
+  spore_viewport_draw_text(self, cr, text, x + 9, y - 22);
 }
 
 void spore_viewport_places_draw(SporeViewport *self, cairo_t *cr) {

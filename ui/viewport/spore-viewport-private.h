@@ -6,12 +6,14 @@
 #include "ui/document/hand-edit.h"
 #include "ui/viewport/spore-viewport.h"
 
+typedef struct SporeViewportMeasures SporeViewportMeasures;
+
 typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE } SporeDrag;
 
 struct _SporeViewport {
   GtkOverlay parent;
-  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure, *link_button, *instrument_button,
-      *led_button;
+  GtkWidget *area, *hud, *tools, *tool_row, *look_row, *overlays, *measure_list, *welcome, *beginnings, *failure,
+      *link_button, *instrument_button, *led_button, *measure_button, *cut_slider;
 
   SporeEditorDocument *document;
   SporePlayer *player;
@@ -34,7 +36,11 @@ struct _SporeViewport {
   SporeViewportPlaces places;
   guint place_held; /* by the drag */
   SporeVec3 place_before;
-  GHashTable *hidden; /* ids of bodies that are not shown, as pointers */
+  SporeViewportMeasures *measures;
+  guint cut; /* number of the plane that cuts, from 1; 0: none does */
+  gboolean cut_turned;
+  double cut_box[2][3]; /* that the plane goes over: lower and upper corner, m */
+  GHashTable *hidden;   /* ids of bodies that are not shown, as pointers */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
   char *legend;      /* of the candidate's colours; NULL: none */
@@ -89,6 +95,10 @@ SporeVec3 spore_viewport_under_cursor(SporeViewport *self, SporeVec3 through);
 gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y);
 /* Handles: discs of a fixed size on the screen, at places of the scene. */
 void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled);
+/* Marks the middle of the view, which is what the space bar picks. */
+void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr);
+/* Readable on any ground; x, y: its left upper corner, pixels. */
+void spore_viewport_draw_text(SporeViewport *self, cairo_t *cr, const char *text, double x, double y);
 gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y);
 
 /* spore-viewport-places.c: places picked by hand. */
@@ -123,6 +133,27 @@ gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 
 /* spore-viewport-hiding.c: what is hidden, and the menu of the right button. */
 /* Opens the menu of the selected body, or of no body. */
 void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean of_body);
+
+/* spore-viewport-cut.c: the cut plane. */
+SporeClip spore_viewport_clip(SporeViewport *self);
+void spore_viewport_cut_moved(GtkRange *slider, SporeViewport *self);
+
+/* spore-viewport-measures.c: distances, angles and volumes. */
+SporeViewportMeasures *spore_viewport_measures_new(void);
+void spore_viewport_measures_free(SporeViewportMeasures *measures);
+/* Removes all, and says nothing of it. */
+void spore_viewport_measures_forget(SporeViewportMeasures *measures);
+/* Gives the button a menu of what can be measured. */
+void spore_viewport_measures_fill_menu(GtkMenuButton *button);
+/* Takes the figures anew from what the stage shows. */
+void spore_viewport_measures_follow(SporeViewport *self);
+/* Whether clicks measure now. */
+gboolean spore_viewport_measures_now(SporeViewport *self);
+gboolean spore_viewport_measures_press(SporeViewport *self, double x, double y); /* FALSE: no body was there */
+void spore_viewport_end_measuring(SporeViewport *self);
+/* One click back, or no more measuring. FALSE: nothing was being measured. */
+gboolean spore_viewport_measures_back(SporeViewport *self);
+void spore_viewport_measures_draw(SporeViewport *self, cairo_t *cr);
 
 /* spore-viewport-hand.c: the instrument that is led. */
 /* What jaws and pedal do, as bits of a device's buttons. */

@@ -4,6 +4,7 @@
 #include "ui/viewport/spore-viewport-private.h"
 
 #define HANDLE_PIXELS 6.0 /* radius as drawn */
+#define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
 #define REACH_PIXELS 11.0 /* distance from a handle within which a click meets it */
 
 void spore_viewport_redraw(SporeViewport *self) {
@@ -103,6 +104,29 @@ void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 hand
   cairo_fill_preserve(cr);
   cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
   cairo_set_line_width(cr, 1.5);
+  cairo_stroke(cr);
+}
+
+void spore_viewport_draw_text(SporeViewport *self, cairo_t *cr, const char *text, double x, double y) {
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, text);
+  cairo_move_to(cr, x, y);
+  pango_cairo_layout_path(cr, layout);
+  cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+  cairo_set_line_width(cr, 3);
+  cairo_stroke_preserve(cr);
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_fill(cr);
+}
+
+void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr) {
+  double x = 0.5 * gtk_widget_get_allocated_width(self->area), y = 0.5 * gtk_widget_get_allocated_height(self->area);
+  cairo_new_path(cr);
+  cairo_move_to(cr, x - CROSS_PIXELS, y);
+  cairo_line_to(cr, x + CROSS_PIXELS, y);
+  cairo_move_to(cr, x, y - CROSS_PIXELS);
+  cairo_line_to(cr, x, y + CROSS_PIXELS);
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_set_line_width(cr, 2);
   cairo_stroke(cr);
 }
 

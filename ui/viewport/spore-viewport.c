@@ -14,7 +14,7 @@
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
 
-enum { PICKED, POINTED, PLACES_MOVED, SIGNAL_COUNT };
+enum { PICKED, POINTED, PLACES_MOVED, MEASURING, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 /* Drawing. */
@@ -51,6 +51,7 @@ static void update_stage(SporeViewport *self) {
     spore_stage_update(self->stage, snapshot);
     self->shown_step = snapshot->step;
   }
+  spore_viewport_measures_follow(self);
   spore_viewport_follow_camera(self);
   spore_viewport_redraw(self);
 }
@@ -101,8 +102,9 @@ static void render(SporeViewport *self, int width, int height) {
     self->stale = TRUE;
   }
   if (!self->stale) return;
-  SporeRenderOptions options = {width, height, .grid = TRUE,
-                                .antialias = !spore_offscreen_is_software(self->offscreen)};
+  SporeRenderOptions options = {width, height, .grid = TRUE, .antialias = !spore_offscreen_is_software(self->offscreen),
+                                .clip = spore_viewport_clip(self)};
+  spore_stage_set_clip(self->stage, &options.clip);
   g_autoptr(GError) error = NULL;
   gint64 start = g_get_monotonic_time();
   cairo_surface_flush(self->pixels);
@@ -131,13 +133,15 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   spore_viewport_hand_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
   spore_viewport_places_draw(self, cr);
+  spore_viewport_measures_draw(self, cr);
   return FALSE;
 }
 
 gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GError **error) {
   int scale = gtk_widget_get_scale_factor(self->area);
   SporeRenderOptions options = {gtk_widget_get_allocated_width(self->area) * scale,
-                                gtk_widget_get_allocated_height(self->area) * scale, .grid = FALSE, .antialias = TRUE};
+                                gtk_widget_get_allocated_height(self->area) * scale, .grid = FALSE, .antialias = TRUE,
+                                .clip = spore_viewport_clip(self)};
   gsize stride = (gsize)options.width * 4;
   ensure_stage(self);
   if (!self->renderer)
@@ -148,15 +152,19 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
          spore_png_write(file, pixels, options.width, options.height, stride, error);
 }
 
-/* The choice of what is shown stands beside the tools, or below them where there is no room. */
+/* The choice of what is shown stands beside the first row of tools that leaves room for it, or below both. */
 static gboolean place_overlays(gpointer data) {
   g_autoptr(SporeViewport) self = data;
-  int tools, overlays, height, margin = gtk_widget_get_margin_start(self->tools);
-  gtk_widget_get_preferred_width(self->tools, NULL, &tools);
-  gtk_widget_get_preferred_width(self->overlays, NULL, &overlays);
-  gtk_widget_get_preferred_height(self->tools, NULL, &height);
-  gboolean room = tools + overlays + margin <= gtk_widget_get_allocated_width(self->area);
-  gtk_widget_set_margin_top(self->overlays, room ? margin : height - margin / 2); /* the height includes the margins */
+  GtkWidget *const rows[] = {self->tool_row, self->look_row};
+  int overlays, width, height, margin = gtk_widget_get_margin_start(self->tools), top = margin;
+  gtk_widget_get_preferred_width(self->overlays, NULL, &overlays); /* with its margins */
+  for (guint i = 0; i < G_N_ELEMENTS(rows); i++) {
+    gtk_widget_get_preferred_width(rows[i], NULL, &width);
+    gtk_widget_get_preferred_height(rows[i], NULL, &height);
+    if (width + overlays + margin <= gtk_widget_get_allocated_width(self->area)) break;
+    top += height + gtk_box_get_spacing(GTK_BOX(self->tools));
+  }
+  gtk_widget_set_margin_top(self->overlays, top);
   spore_box_fit(GTK_BOX(self->beginnings), gtk_widget_get_allocated_width(self->area) - WELCOME_PADDING);
   return G_SOURCE_REMOVE;
 }
@@ -230,6 +238,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   spore_viewport_end_drag(self);
   release_document(self);
   g_hash_table_remove_all(self->hidden);
+  spore_viewport_measures_forget(self->measures);
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
   self->framed = FALSE;
@@ -251,6 +260,7 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
 
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
   spore_viewport_end_drag(self);
+  if (picking) spore_viewport_end_measuring(self);
   self->picking = picking;
   spore_viewport_set_anchors(self, NULL, 0);
   if (picking) gtk_widget_grab_focus(self->area); /* whose keys pick, too */
@@ -305,6 +315,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->marks.segments, g_free);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
   g_clear_pointer(&self->link_marks, g_array_unref);
+  g_clear_pointer(&self->measures, spore_viewport_measures_free);
   g_clear_object(&self->link_kinds);
   g_clear_object(&self->instrument_kinds);
   spore_viewport_clear_legend(self);
@@ -320,19 +331,27 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
                                   G_TYPE_NONE, 2, G_TYPE_UINT, G_TYPE_POINTER);
   signals[PLACES_MOVED] = g_signal_new("places-moved", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
                                        G_TYPE_NONE, 1, G_TYPE_POINTER);
+  signals[MEASURING] =
+      g_signal_new("measuring", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, tool_row);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, look_row);
   gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, measure_list);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
   gtk_widget_class_bind_template_child(widget, SporeViewport, link_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, instrument_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, led_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, measure_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, cut_slider);
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
+  gtk_widget_class_bind_template_callback(widget, spore_viewport_cut_moved);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_press);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_release);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_motion);
@@ -343,9 +362,12 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
 static void spore_viewport_init(SporeViewport *self) {
   self->hidden = g_hash_table_new(NULL, NULL);
   self->link_marks = spore_viewport_link_marks_new();
+  self->measures = spore_viewport_measures_new();
   self->options = (SporeStageOptions){.surfaces = TRUE};
   spore_hand_edit_close(&self->edit);
   self->camera = (SporeCamera){
       .distance = EMPTY_DISTANCE_M, .azimuth = 0.5, .elevation = 0.35, .field_of_view = FIELD_OF_VIEW_RAD};
   gtk_widget_init_template(GTK_WIDGET(self));
+  spore_ignore_wheel(self->cut_slider);
+  spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
 }

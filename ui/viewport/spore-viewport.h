@@ -1,25 +1,27 @@
 /* The scene as it stands, and the gestures on it.
  *
  * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
- * the wheel zooms to the cursor, right opens a menu; H hides the selected body, I shows it alone, A shows all; F
- * frames, 1, 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the
- * Lead tool, left moves the instrument and takes it from its track, Shift+left turns it, the wheel moves it in depth,
- * right closes its jaws and presses its pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by
- * itself. N and P choose the instrument, arrows and Page Up and Down move it, C closes it, O opens it. With the Edit
- * tool, left picks and moves spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, -
- * resize, arrows move, N and P go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on
- * the organ puts the chosen one there.
+ * the wheel zooms to the cursor, right opens a menu; M measures a distance; H hides the selected body, I shows it
+ * alone, A shows all; F frames, 1, 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a
+ * drag back. With the Lead tool, left moves the instrument and takes it from its track, Shift+left turns it, the wheel
+ * moves it in depth, right closes its jaws and presses its pedal; with Shift let go, they stay so; Ctrl+right opens
+ * what stays closed by itself. N and P choose the instrument, arrows and Page Up and Down move it, C closes it, O opens
+ * it. With the Edit tool, left picks and moves spheres and points of curves, and the chosen one's handle resizes it;
+ * the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete deletes. So it does with regions, by their
+ * handles; left on the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
  * all bodies, as far away as the last anchor
  *   pointed (u body, p place)  where the cursor meets that body while picking: as in "picked"
- *   places-moved (p places)    a picked place was dragged elsewhere: const SporeViewportPlaces * */
+ *   places-moved (p places)    a picked place was dragged elsewhere: const SporeViewportPlaces *
+ *   measuring ()               a measure began, went on, was made or removed */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 
 #include <gtk/gtk.h>
 
+#include "core/scene/gauge.h"
 #include "ui/jobs/quality.h"
 #include "ui/render/stage.h"
 #include "ui/sim/spore-player.h"
@@ -76,6 +78,19 @@ void spore_viewport_hide(SporeViewport *self, const GPtrArray *bodies);
 void spore_viewport_isolate(SporeViewport *self, const GPtrArray *bodies);
 void spore_viewport_show_all(SporeViewport *self);
 guint spore_viewport_hidden_count(SporeViewport *self);
+/* The next clicks on bodies measure; Escape goes back. What is measured follows the bodies, is listed in the view, and
+ * can be removed there. Another document has none. */
+void spore_viewport_measure(SporeViewport *self, const SporeGauge *gauge);
+/* What the next click is for, translated, g_free; NULL: clicks do not measure. */
+char *spore_viewport_measure_hint(SporeViewport *self);
+guint spore_viewport_measure_count(SporeViewport *self);
+/* Removes all, and ends measuring. */
+void spore_viewport_clear_measures(SporeViewport *self);
+/* A plane across what is shown hides what lies before it: "x", "y" or "z" along these axes, "view" always before the
+ * eye, anything else none. A slider in the view moves it. */
+void spore_viewport_set_cut(SporeViewport *self, const char *name);
+/* Whether it hides the other side. */
+void spore_viewport_turn_cut(SporeViewport *self, gboolean turned);
 void spore_viewport_frame(SporeViewport *self);
 /* Frames the scene at the next rebuild, when the last change is visible. */
 void spore_viewport_frame_soon(SporeViewport *self);
