@@ -753,6 +753,34 @@ static void test_number_text(void) {
   g_assert_cmpstr(shown, ==, "0,003 1 2,5");
 }
 
+/* Metres of the file and mm of the window: the point moves, so that no digit is lost or made up. */
+static void test_length_text(void) {
+  static const struct {
+    const char *text;
+    int digits;
+    const char *shifted;
+  } cases[] = {{"0.003", 3, "3"},         {"0.1234567890123456", 3, "123.4567890123456"},
+               {"-1.5e-05", 3, "-0.015"}, {"0.06 0 -0.01", 3, "60 0 -10"},
+               {"3", -3, "0.003"},        {"120", -3, "0.12"},
+               {"2e-13", 3, "2e-10"},      {"1e300", 3, "1e303"},
+               {"inf -", 3, "inf -"},     {"1.2.3", 3, "1.2.3"},
+               {"0.0", -3, "0"},          {"", 3, ""}};
+  for (guint i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *shifted = spore_number_text_shift(cases[i].text, cases[i].digits);
+    g_assert_cmpstr(shifted, ==, cases[i].shifted);
+  }
+  static const struct {
+    const char *typed, *left;
+    int digits;
+  } units[] = {
+      {"3", "3", -3}, {"3 cm ", "3", -2}, {"0.003m", "0.003", 0}, {"1 2 3 µm", "1 2 3", -6}, {"5 in", "5 in", -3}};
+  for (guint i = 0; i < G_N_ELEMENTS(units); i++) {
+    g_autofree char *typed = g_strdup(units[i].typed);
+    g_assert_cmpint(spore_number_text_cut_length(typed), ==, units[i].digits);
+    g_assert_cmpstr(typed, ==, units[i].left);
+  }
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -795,6 +823,7 @@ int main(int argc, char **argv) {
     g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
   }
   g_test_add_func("/author/number-text", test_number_text);
+  g_test_add_func("/author/length-text", test_length_text);
   int status = g_test_run();
   g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;
   g_autofree char *spore = state ? g_build_filename(state, "spore", NULL) : NULL;

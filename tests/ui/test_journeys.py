@@ -559,8 +559,9 @@ def region_placed_in_the_view():
         middle = x + width // 2, y + height // 2
 
         def numbers():
-            centre = editor.text_of(editor.find("text", "^Centre$", showing=False)).split()
-            return [float(n) for n in centre] + [float(editor.text_of(editor.find("text", "^Radius$", showing=False)))]
+            """Centre and radius in m; the window shows mm."""
+            shown = [editor.text_of(editor.find("text", f"^{name}$", showing=False)) for name in ("Centre", "Radius")]
+            return [float(n) / 1000 for n in " ".join(shown).split()]
 
         first = numbers()
         editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
@@ -1097,6 +1098,12 @@ def inspector_sets_a_property():
         assert 'friction="0.7"' in saved(editor, "property")
         editor.act("undo")
         ui.wait(lambda: "friction" not in saved(editor, "property"), "the value to go")
+        # Lengths are shown in mm, and taken in a unit that is typed.
+        position = lambda: editor.text_of(editor.find("text", "^Position$", showing=False))
+        for typed, shown, written in (("3 0 -12.5", "3 0 -12.5", "0.003 0 -0.0125"), ("1 2 3 cm", "10 20 30", "0.01 0.02 0.03")):
+            editor.set_entry(editor.find("text", "^Position$", showing=False), typed)
+            ui.wait(lambda: f'position="{written}"' in saved(editor, "property"), "the place in the file, in metres")
+            ui.wait(lambda: position() == shown, "the place in the window, in millimetres")
 
 
 @check
@@ -2564,6 +2571,12 @@ def plots_of_a_run():
         assert min(float(row[y]) for row in rows[1:]) < 0.03, "it fell, and may be on its way up again"
         drawn = xml.etree.ElementTree.parse(picture)
         assert any("Contacts: force [N]" in (text.text or "") for text in drawn.iter("{http://www.w3.org/2000/svg}text"))
+        lengths = folder("plots") / "lengths.svg"
+        editor.act("plot", "s", "watch")
+        editor.act("save-plot", "s", str(lengths))
+        ui.wait(lambda: lengths.exists(), "the plot of a place")
+        texts = [text.text or "" for text in xml.etree.ElementTree.parse(lengths).iter("{http://www.w3.org/2000/svg}text")]
+        assert any("[mm]" in text for text in texts) and "60" in texts, texts
         for wrong, says in (("ball@1,1,1", "the nearest point of the body is ball@"), ("gone@0,0,0", "floor, ball"), ("ball", "BODY@X,Y,Z")):
             editor.act("watch", "s", wrong)
             ui.wait(lambda: says in (editor.message() or ""), f"{wrong} to be refused")

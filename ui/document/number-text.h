@@ -9,5 +9,11 @@ const char *spore_number_mark(void);
 char *spore_number_text_read(const char *typed, const char *mark);
 /* A text of a scene's file, with that mark. g_free. */
 char *spore_number_text_show(const char *text, const char *mark);
+/* The text of a scene's file with each number times ten to the power of `digits`, exactly: the decimal point moves.
+ * What is no decimal number stays. g_free. */
+char *spore_number_text_shift(const char *text, int digits);
+/* Cuts a unit of length from the end of what was typed, and tells how far the decimal point of metres lies from that
+ * of the unit: m 0, cm -2, mm -3, um and µm -6. Without one: -3, since the window shows lengths in mm. */
+int spore_number_text_cut_length(char *typed);
 
 #endif

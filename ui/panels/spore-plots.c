@@ -17,7 +17,7 @@
 
 /* Columns of a quantity that share a unit: one plot. */
 typedef struct {
-  char *id, *label; /* "contacts.depth"; "Contacts: depth [m]" */
+  char *id, *label; /* "contacts.depth"; "Contacts: depth [mm]" */
   guint quantity;
   const char *unit;
   GArray *columns; /* of gsize */
@@ -104,7 +104,10 @@ static Group *group_of(SporePlots *self, const SporeColumn *column) {
   return group;
 }
 
-/* "Energy [J]"; of a group of one part, that too: "Contacts: depth [m]". */
+/* Lengths are shown in mm, as everywhere in the window; tables keep metres. */
+static gboolean is_length(const Group *group) { return g_str_equal(group->unit, "m"); }
+
+/* "Energy [J]"; of a group of one part, that too: "Contacts: depth [mm]". */
 static void name_group(Group *group, const SporeColumn *columns) {
   const SporeQuantity *quantity = &spore_quantities[group->quantity];
   gsize parts = 0, first = g_array_index(group->columns, gsize, 0);
@@ -114,7 +117,7 @@ static void name_group(Group *group, const SporeColumn *columns) {
   GString *label = g_string_new(_(name));
   if (part > rest && is_of_one(group, columns)) g_string_append_printf(label, " %.*s", (int)(part - rest - 1), rest);
   if (parts == 1 && quantity->part_count > 1) g_string_append_printf(label, ": %s", part);
-  if (*group->unit) g_string_append_printf(label, " [%s]", group->unit);
+  if (*group->unit) g_string_append_printf(label, " [%s]", is_length(group) ? "mm" : group->unit);
   group->label = g_string_free(label, FALSE);
 }
 
@@ -190,6 +193,7 @@ static gsize copy_values(SporePlots *self, SporeSession *session, const Group *g
   for (guint i = 0; i < group->columns->len; i++) {
     gsize column = g_array_index(group->columns, gsize, i);
     double *values = spore_session_numbers(session, column, 1, &rows);
+    for (gsize r = 0; is_length(group) && r < rows; r++) values[r] *= 1e3;
     least = MIN(least, rows); /* the run may have gone on, or begun anew, in between */
     take_values(self, values, rows, column, columns, sizes);
   }

@@ -31,6 +31,9 @@ static const SporeParameter *parameter_of(SporePropertyRow *self) {
   return &self->type->table->parameters[self->property];
 }
 
+/* Lengths are shown in mm, as everywhere in the window. */
+static gboolean is_length(const SporeParameter *parameter) { return g_str_equal(parameter->unit, "m"); }
+
 static gboolean is_colour(const SporeParameter *parameter) {
   return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
 }
@@ -107,11 +110,36 @@ static gboolean is_number(SporePropertyRow *self) {
   return type == SPORE_REAL || type == SPORE_INTEGER || type == SPORE_VECTOR;
 }
 
+/* A number below the range that means something, which the program chooses where none is given: rest_length="-1". */
+static gboolean is_automatic(const SporeParameter *parameter, const char *text) {
+  return parameter->type == SPORE_REAL && parameter->minimum < 0 && parameter->initial[0] == parameter->minimum &&
+         *text && g_ascii_strtod(text, NULL) == parameter->minimum;
+}
+
+/* A text of the file as the entry shows it. g_free. */
+static char *entry_text(SporePropertyRow *self, const char *text) {
+  if (is_automatic(parameter_of(self), text)) return g_strdup("");
+  if (!is_number(self)) return g_strdup(text);
+  g_autofree char *shifted = spore_number_text_shift(text, is_length(parameter_of(self)) ? 3 : 0);
+  return spore_number_text_show(shifted, spore_number_mark());
+}
+
+/* What was typed, as the file has it. g_free. */
+static char *typed_text(SporePropertyRow *self, const char *typed) {
+  if (!is_number(self)) return g_strstrip(g_strdup(typed));
+  g_autofree char *plain = g_strdup(typed);
+  int digits = is_length(parameter_of(self)) ? spore_number_text_cut_length(plain) : 0;
+  g_autofree char *text = spore_number_text_read(plain, spore_number_mark());
+  return digits == 0 ? g_steal_pointer(&text) : spore_number_text_shift(text, digits);
+}
+
 static void entry_commit(SporePropertyRow *self) {
   const char *typed = gtk_entry_get_text(GTK_ENTRY(self->editor));
-  g_autofree char *text =
-      is_number(self) ? spore_number_text_read(typed, spore_number_mark()) : g_strstrip(g_strdup(typed));
-  if (*text == '\0' && g_strcmp0(self->shown, "") == 0) return; /* of objects that differ: nothing was typed */
+  g_autofree char *text = typed_text(self, typed), *before = self->shown ? entry_text(self, self->shown) : NULL;
+  if (g_strcmp0(typed, before) == 0) { /* nothing was typed; objects that differ show nothing */
+    complain(self, NULL);
+    return;
+  }
   change(self, *text == '\0' && is_number(self) ? NULL : text);
 }
 
@@ -240,7 +268,9 @@ static void show_value(SporePropertyRow *self, const char *text) {
     for (int i = 0; *text && i < 3; i++) *channels[i] = g_ascii_strtod(end, &end);
     gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(self->editor), &colour);
   } else {
-    g_autofree char *shown = is_number(self) ? spore_number_text_show(text, spore_number_mark()) : g_strdup(text);
+    g_autofree char *shown = entry_text(self, text);
+    gboolean automatic = is_automatic(parameter_of(self), text);
+    gtk_entry_set_placeholder_text(GTK_ENTRY(self->editor), automatic ? _("automatic") : NULL);
     gtk_entry_set_text(GTK_ENTRY(self->editor), shown);
   }
 }
@@ -279,13 +309,13 @@ void spore_property_row_refresh(SporePropertyRow *self) {
 
 /* Label and hints, from the table. */
 
-static char *range_text(const SporeParameter *parameter) {
-  gboolean low = isfinite(parameter->minimum), high = isfinite(parameter->maximum);
+static char *range_text(const SporeParameter *parameter, const char *unit) {
+  double scale = is_length(parameter) ? 1e3 : 1, least = parameter->minimum * scale, most = parameter->maximum * scale;
+  gboolean low = isfinite(least), high = isfinite(most);
   if (parameter->type != SPORE_REAL && parameter->type != SPORE_INTEGER && parameter->type != SPORE_VECTOR) return NULL;
-  if (low && high)
-    return g_strdup_printf(_("From %g to %g %s"), parameter->minimum, parameter->maximum, parameter->unit);
-  if (low) return g_strdup_printf(_("At least %g %s"), parameter->minimum, parameter->unit);
-  if (high) return g_strdup_printf(_("At most %g %s"), parameter->maximum, parameter->unit);
+  if (low && high) return g_strdup_printf(_("From %g to %g %s"), least, most, unit);
+  if (low) return g_strdup_printf(_("At least %g %s"), least, unit);
+  if (high) return g_strdup_printf(_("At most %g %s"), most, unit);
   return NULL;
 }
 
@@ -296,13 +326,13 @@ static void describe(SporePropertyRow *self) {
                                       N_("A running simulation starts again from time 0")};
   const SporeParameter *parameter = parameter_of(self);
   g_autofree char *label = spore_label_of(parameter->name);
-  g_autofree char *range = range_text(parameter);
+  g_autofree char *unit = is_length(parameter) ? g_strdup("mm") : spore_unit_label(parameter->unit);
+  g_autofree char *range = range_text(parameter, unit);
   g_autofree char *tooltip =
       g_strconcat(parameter->doc && *parameter->doc ? _(parameter->doc) : label, range ? "\n" : NULL, range, NULL);
   gtk_label_set_text(GTK_LABEL(self->label), label);
   gtk_widget_set_tooltip_text(self->label, tooltip);
   gtk_widget_set_tooltip_text(self->editor, tooltip);
-  g_autofree char *unit = spore_unit_label(parameter->unit);
   gtk_label_set_text(GTK_LABEL(self->unit), unit);
   gtk_label_set_text(GTK_LABEL(self->tag), _(tags[parameter->change]));
   gtk_widget_set_tooltip_text(self->tag, _(hints[parameter->change]));
