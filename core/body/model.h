@@ -275,6 +275,8 @@ struct SporeModelType {
    * that are to be moved by explicit steps: where the scene leaves it open, a body takes Verlet and as many substeps as
    * these rates ask for. */
   void (*rates)(const SporeModel *model, double *frequency, double *damping);
+  /* What the forces of the last evaluation bring in from outside, or take out, W: of a model with a thermostat. */
+  double (*power)(const SporeModel *model);
   /* Drops what evaluations leave behind to make the next one quicker: the state was set from outside, and what follows
    * from it must not depend on what was before. */
   void (*forget)(SporeModel *model);

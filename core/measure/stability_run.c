@@ -1,9 +1,9 @@
 /* One run of a world that is pushed, and an account of its energy.
  *
  * Energy at any time may be no more than at the start and the work done since. Devices do the work F.v h at what they
- * hold. What else changes energy from outside (parameters that jump, particles that come or go, tissue that shrinks, a
- * change of level) begins the account anew. A gain is measured against the energy at work: what was there, the largest
- * change of each kind since, and what the devices turned over. */
+ * hold, thermostats that of their power. What else changes energy from outside (parameters that jump, particles that
+ * come or go, tissue that shrinks, a change of level) begins the account anew. A gain is measured against the energy at
+ * work: what was there, the largest change of each kind since, and what the devices turned over. */
 #include <math.h>
 #include <string.h>
 
@@ -72,11 +72,19 @@ static void begin(Account *account, const SporeWorld *world, double step_s) {
   account->had = least_energy(world, step_s) + energy.kinetic + fabs(energy.internal) + energy.contact;
 }
 
-/* Work that the devices did in the step: forces on what they hold, times its way. True: they felt some. */
+static void add_turnover(Account *account, double work) {
+  account->work += work;
+  account->turnover += fabs(work);
+}
+
+/* Work that thermostats and devices did in the step; of these, forces on what they hold, times its way. True: they felt
+ * some. */
 static bool add_work(Account *account, SporeWorld *world, double step_s) {
   const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
   bool felt = false;
   for (uint32_t b = 0; b < spore_world_body_count(world); b++) {
+    const SporeModel *model = spore_world_body_model(world, b);
+    if (model && model->type->power) add_turnover(account, step_s * model->type->power(model));
     if (spore_world_body_role(world, b) != SPORE_ACTIVE) continue;
     const double *reaction = snapshot->reaction + 6 * (size_t)b, *v = spore_world_v(world, b);
     double work = 0;
@@ -84,8 +92,7 @@ static bool add_work(Account *account, SporeWorld *world, double step_s) {
       work -= step_s * reaction[k] * v[k];
       felt |= reaction[k] != 0;
     }
-    account->work += work;
-    account->turnover += fabs(work);
+    add_turnover(account, work);
   }
   return felt;
 }

@@ -6,7 +6,12 @@
  * that they start from has the density of the liquid at its triple point, n sigma^3 / V = 0.8442. Surface tension makes
  * epsilon: gamma = 0.585 epsilon / sigma^2 at a temperature of 0.7 epsilon (J. Vrabec, G. K. Kedia, G. Fuchs, H. Hasse,
  * Molecular Physics 104, 2006: the potential cut off at 2.5 sigma). The particles are no molecules: their temperature
- * is how much they jostle. */
+ * is how much they jostle.
+ *
+ * What falls or is stirred grows hot and boils, since a drop has no walls that would take the heat; what touches damped
+ * bodies is cooled until it sets. The thermostat keeps the temperature: it couples thermal motion, and not the flow,
+ * weakly to a bath (H. J. C. Berendsen, J. P. M. Postma, W. F. van Gunsteren et al., Journal of Chemical Physics 81,
+ * 1984). No chance is in it, so that a run can be repeated to the bit. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -17,11 +22,13 @@
 #include "models/common/nodal.h"
 #include "models/particles/fill.h"
 #include "models/particles/lennard_jones_law.h"
+#include "models/particles/thermal_motion.h"
 #include "models/registry.h"
 
 #define LIQUID_DENSITY 0.8442
 #define LIQUID_TENSION 0.585
 #define CUTOFF 2.5 /* sigma */
+#define CUBE 2.5   /* sigma: of the cubes in which thermal motion is told from flow; some 13 particles of a liquid */
 #define CORE 0.7   /* sigma: nearer the force does not grow; at 255 epsilon nothing comes there by itself */
 
 SporeLennardJonesLaw spore_lennard_jones_law(double sigma, double epsilon, double cutoff, double core) {
@@ -41,21 +48,25 @@ SporeLennardJonesLaw spore_lennard_jones_law(double sigma, double epsilon, doubl
 
 typedef struct FluidFields {
   int64_t particles;
-  double density, surface_tension, temperature, drag;
+  double density, surface_tension, temperature, thermostat, drag;
   double period[3];
 } FluidFields;
 
 /* What evaluations leave behind: which particles are near each other does not change what their forces are. */
 typedef struct FluidMemory {
   SporeClusterList list;
-  bool capped; /* in the last evaluation of forces */
+  SporeThermalMotion motion; /* of a fluid with a thermostat */
+  double power;              /* of the thermostat in the last evaluation of forces, W */
+  bool capped;               /* in the last evaluation of forces */
 } FluidMemory;
 
 typedef struct Fluid {
   SporeModel base;
   double *rest; /* particles x 3, body's frame */
   double *heat; /* particles x 3, body's frame: how they move at time 0, m/s */
-  double sigma, epsilon, drag;
+  double sigma, epsilon, thermostat, drag;
+  double warmth; /* temperature over mass, m^2/s^2 */
+  double period[3];
   SporeLennardJonesLaw law;
   FluidMemory *memory;
 } Fluid;
@@ -72,6 +83,9 @@ static const SporeParameter parameters[] = {
     SPORE_REAL_FIELD(FluidFields, temperature, "", 0, 100, 0, SPORE_CHANGE_REBUILD,
                      N_("How much the particles jostle at time 0, in units of the depth of their attraction; about 0.7 "
                         "to 1.2 flows, less sets.")),
+    SPORE_REAL_FIELD(FluidFields, thermostat, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE,
+                     N_("Rate at which the particles come back to that temperature, while their flow is not slowed. 0: "
+                        "what is stirred grows hot and boils, what touches damped bodies sets.")),
     SPORE_REAL_FIELD(FluidFields, drag, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE, N_("Rate at which motion dies away.")),
     {.name = "period",
      .type = SPORE_VECTOR,
@@ -90,7 +104,10 @@ static bool no_memory(SporeError *error) {
 
 static void destroy(SporeModel *model) {
   Fluid *fluid = (Fluid *)model;
-  if (fluid->memory) spore_cluster_list_clear(&fluid->memory->list);
+  if (fluid->memory) {
+    spore_cluster_list_clear(&fluid->memory->list);
+    spore_thermal_motion_clear(&fluid->memory->motion);
+  }
   spore_free(fluid->memory);
   spore_free(fluid->rest);
   spore_free(fluid->heat);
@@ -158,13 +175,16 @@ static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields
   double mass = fields->density * volume / (double)n;
   fluid->sigma = cbrt(LIQUID_DENSITY * volume / (double)n);
   fluid->epsilon = fields->surface_tension * fluid->sigma * fluid->sigma / LIQUID_TENSION;
+  fluid->thermostat = fields->thermostat;
   fluid->drag = fields->drag;
+  fluid->warmth = fields->temperature * fluid->epsilon / mass;
+  memcpy(fluid->period, fields->period, sizeof fluid->period);
   fluid->law = spore_lennard_jones_law(fluid->sigma, fluid->epsilon, CUTOFF * fluid->sigma, CORE * fluid->sigma);
   for (size_t i = 0; i < n; i++) fluid->base.block_mass[i] = mass;
   if (!check_period(fluid, fields->period, error)) return false;
   fluid->heat = SPORE_NEW_ARRAY(double, 3 * n);
   fluid->memory = SPORE_NEW(FluidMemory);
-  if (!fluid->heat || !fluid->memory ||
+  if (!fluid->heat || !fluid->memory || !spore_thermal_motion_init(&fluid->memory->motion, n, CUBE * fluid->sigma) ||
       !spore_cluster_list_init(&fluid->memory->list, n, fields->period, CUTOFF * fluid->sigma) ||
       !spore_cluster_list_update(&fluid->memory->list, fluid->rest) || !spore_cluster_list_spare(&fluid->memory->list))
     return no_memory(error);
@@ -202,6 +222,17 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
     spore_vec3_accumulate(v + 3 * i, spore_quat_rotate(pose.orientation, spore_vec3_load(fluid->heat + 3 * i)));
 }
 
+/* Thermal energy Q of a bath with Q_0: dQ/dt = rate (Q_0 - Q), velocities so at half that rate; where the fluid is all
+ * but cold, no faster than the rate. */
+static void keep_warm(const Fluid *fluid, const double *q, const double *v, double *f) {
+  SporeThermalMotion *motion = &fluid->memory->motion;
+  double warmth = spore_thermal_motion_find(motion, q, v, fluid->period);
+  if (!(warmth > 0)) return;
+  double rate = fluid->base.block_mass[0] * 0.5 * fluid->thermostat * fmin(fluid->warmth / warmth - 1, 2);
+  spore_thermal_motion_push(motion, v, rate, f);
+  fluid->memory->power = rate * warmth * (double)motion->degrees;
+}
+
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   assert(model->type == &spore_lennard_jones);
   assert(f != q && f != v);
@@ -213,6 +244,8 @@ static void force(const SporeModel *model, const double *q, const double *shape,
   }
   memory->capped = SPORE_KERNEL(spore_lennard_jones_force)(&memory->list, &fluid->law);
   spore_cluster_list_add_forces(&memory->list, f);
+  memory->power = 0;
+  if (fluid->thermostat > 0) keep_warm(fluid, q, v, f);
   if (fluid->drag == 0) return;
   double drag = fluid->drag * model->block_mass[0];
   for (size_t i = 0; i < 3 * model->block_count; i++) f[i] -= drag * v[i];
@@ -247,7 +280,9 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   assert(model->type == &spore_lennard_jones);
-  ((Fluid *)model)->drag = ((const FluidFields *)fields)->drag;
+  Fluid *fluid = (Fluid *)model;
+  fluid->thermostat = ((const FluidFields *)fields)->thermostat;
+  fluid->drag = ((const FluidFields *)fields)->drag;
   return true;
 }
 
@@ -256,7 +291,12 @@ static void rates(const SporeModel *model, double *frequency, double *damping) {
   assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   *frequency = sqrt(6 * fluid->law.core_stiffness / model->block_mass[0]);
-  *damping = fluid->drag;
+  *damping = fluid->drag + fluid->thermostat;
+}
+
+static double power(const SporeModel *model) {
+  assert(model->type == &spore_lennard_jones);
+  return ((const Fluid *)model)->memory->power;
 }
 
 static void forget(SporeModel *model) {
@@ -289,6 +329,7 @@ const SporeModelType spore_lennard_jones = {
     .map = map,
     .retune = retune,
     .rates = rates,
+    .power = power,
     .forget = forget,
     .spheres = spheres,
     .notice = notice,

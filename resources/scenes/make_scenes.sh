@@ -23,6 +23,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_adnexa.py exercise-salpingectomy
 /usr/bin/python3 ../meshes/make_pegs.py exercise-peg-transfer
 /usr/bin/python3 ../meshes/make_tube.py exercise-clip-and-cut
+/usr/bin/python3 ../meshes/make_dish.py exercise-suction
 /usr/bin/python3 ../meshes/make_laparoscopy.py laparoscopy
 /usr/bin/python3 ../meshes/make_knot.py knot
 /usr/bin/python3 ../meshes/make_suture.py suture instruments

@@ -8,13 +8,13 @@
 
 typedef struct FluidFields { /* as the model's own */
   int64_t particles;
-  double density, surface_tension, temperature, drag;
+  double density, surface_tension, temperature, thermostat, drag;
   double period[3];
 } FluidFields;
 
 /* cells^3 x 4 particles in a periodic box, in units where sigma, epsilon and mass are 1: the number is that of the
  * surface's volume. */
-static SporeModel *periodic_fluid(unsigned cells, double temperature, double *side) {
+static SporeModel *periodic_fluid_at(unsigned cells, double temperature, double thermostat, double *side) {
   size_t count = 4 * (size_t)cells * cells * cells;
   *side = cbrt((double)count / DENSITY);
   SporeTriangleMesh box;
@@ -24,6 +24,7 @@ static SporeModel *periodic_fluid(unsigned cells, double temperature, double *si
                         .density = DENSITY,
                         .surface_tension = 0.585,
                         .temperature = temperature,
+                        .thermostat = thermostat,
                         .period = {*side, *side, *side}};
   SporeGeometry geometry = {.surface = &box};
   SporeError error = SPORE_ERROR_INIT;
@@ -33,6 +34,10 @@ static SporeModel *periodic_fluid(unsigned cells, double temperature, double *si
   g_assert_cmpfloat(fabs(model->block_mass[0] - 1), <, 1e-12);
   spore_triangle_mesh_clear(&box);
   return model;
+}
+
+static SporeModel *periodic_fluid(unsigned cells, double temperature, double *side) {
+  return periodic_fluid_at(cells, temperature, 0, side);
 }
 
 /* A state at rest in the body's own place. */
@@ -245,6 +250,64 @@ static void test_liquid(void) {
   model->type->destroy(model);
 }
 
+/* What a fluid that began at temperature 0.75 comes to: its lattice takes half of the heat as it melts. A stream along
+ * x goes through it. */
+typedef struct Warmth {
+  double temperature, diffusion, momentum, energy_off, power_off;
+} Warmth;
+
+static Warmth warmth_of(double thermostat) {
+  double side, temperature = 0, work = 0, stream = 0.5, dt = 0.005;
+  SporeModel *model = periodic_fluid_at(5, 0.75, thermostat, &side);
+  size_t n = model->block_count, size = 3 * n;
+  State state = state_new(model, spore_pose_identity(), spore_vec3(stream, 0, 0), (SporeVec3){0, 0, 0});
+  double *f = model_force(model, &state), before = total(model, &state), moved = 0, sum = 0;
+  const int settle = 3000, steps = 3000;
+  double *from = NULL;
+  for (int k = 0; k < settle + steps; k++) {
+    if (k == settle) from = g_memdup2(state.q, size * sizeof *from);
+    double power = model->type->power(model);
+    verlet(model, &state, f, dt);
+    work += 0.5 * dt * (power + model->type->power(model));
+    if (k >= settle)
+      temperature += (2 * kinetic(model, &state) - (double)n * stream * stream) / (3 * (double)n) / steps;
+  }
+  for (size_t i = 0; i < size; i++) {
+    double way = state.q[i] - from[i] - (i % 3 == 0 ? stream * dt * steps : 0);
+    moved += way * way / (double)n;
+    sum += i % 3 == 0 ? state.v[i] : 0;
+  }
+  double gained = total(model, &state) - before;
+  Warmth found = {.temperature = temperature, .diffusion = moved / (6 * dt * steps)};
+  found.momentum = sum / ((double)n * stream) - 1;
+  found.energy_off = gained / (double)n;
+  found.power_off = (gained - work) / (double)n;
+  g_test_message(
+      "thermostat %g: temperature %.3f, diffusion %.4f, momentum off by %.1e, energy a particle up by %.3f, of "
+      "which %.1e without work",
+      thermostat, found.temperature, found.diffusion, found.momentum, found.energy_off, found.power_off);
+  g_free(from);
+  g_free(f);
+  state_clear(&state);
+  model->type->destroy(model);
+  return found;
+}
+
+/* The thermostat brings the heat back, accounts for it, and neither slows a stream nor keeps particles from diffusing.
+ * Left alone the fluid is a solid: its particles stay where they are. */
+static void test_thermostat(void) {
+  Warmth kept = warmth_of(1), alone = warmth_of(0);
+  g_assert_cmpfloat(fabs(kept.temperature - 0.75), <, 0.03);
+  g_assert_cmpfloat(alone.temperature, <, 0.5);
+  g_assert_cmpfloat(kept.diffusion, >, 0.02);
+  g_assert_cmpfloat(kept.diffusion, <, 0.05);
+  g_assert_cmpfloat(alone.diffusion, <, 0.2 * kept.diffusion);
+  g_assert_cmpfloat(fabs(kept.momentum), <, 1e-9);
+  g_assert_cmpfloat(kept.energy_off, >, 0.3);
+  g_assert_cmpfloat(fabs(kept.power_off), <, 0.02);
+  g_assert_cmpfloat(fabs(alone.energy_off), <, 0.01);
+}
+
 /* Blood in physical units: mass and volume are right, and a drop of it holds together. */
 static void test_units(void) {
   SporeTriangleMesh box;
@@ -310,6 +373,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/lennard_jones/instruction-sets", test_instruction_sets);
   g_test_add_func("/lennard_jones/energy_slope", test_energy_slope);
   g_test_add_func("/lennard_jones/liquid", test_liquid);
+  g_test_add_func("/lennard_jones/thermostat", test_thermostat);
   g_test_add_func("/lennard_jones/units", test_units);
   g_test_add_func("/lennard_jones/world", test_world);
   return g_test_run();

@@ -1,4 +1,4 @@
-/* Fluids: case 27. */
+/* Fluids: case 27, and a drop that spreads on a slope. */
 #include <math.h>
 #include <string.h>
 
@@ -56,8 +56,86 @@ static void case_27(void) {
   rig_free(rig);
 }
 
+#define TILT 0.2 /* rad */
+#define SIDE_M 0.014
+
+typedef struct Spread {
+  double along, height, kept; /* m between its 10th and 90th part down the slope; mean over the slope, m; share */
+} Spread;
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Share of the pairs that were neighbours in `before` and are still. */
+static double kept_pairs(const double *before, const double *now, size_t count, double reach) {
+  size_t were = 0, are = 0;
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < i; j++) {
+      if (spore_vec3_distance(spore_vec3_load(before + 3 * i), spore_vec3_load(before + 3 * j)) > reach) continue;
+      were++;
+      are += spore_vec3_distance(spore_vec3_load(now + 3 * i), spore_vec3_load(now + 3 * j)) <= reach;
+    }
+  return were > 0 ? (double)are / (double)were : 1;
+}
+
+static const SporeSphereSet *own_spheres(Rig *rig, const SporeModel *model) {
+  SporeSphereSet *set = g_new0(SporeSphereSet, 1);
+  SporeError error = SPORE_ERROR_INIT;
+  if (!model->type->spheres(model, set, &error)) g_error("%s", error.message);
+  g_ptr_array_add(rig->sets, set);
+  return set;
+}
+
+/* A cube of blood, put onto a floor that is tilted by turning gravity. Neighbours are followed over its last second. */
+static Spread spread_of(double temperature, double thermostat) {
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0.5 * SIDE_M + 0.001, 0), spore_vec3(SIDE_M, SIDE_M, SIDE_M));
+  Rig *rig = rig_new();
+  rig->description.solver.time_step = 1e-4;
+  rig->description.gravity = spore_vec3(9.81 * sin(TILT), -9.81 * cos(TILT), 0);
+  SporeBodyDescription *slope = rig_unmovable(rig, "slope", rig_floor(rig, 60, 30, 0.005, 0.006));
+  slope->contact.damping = 0.05, slope->contact.friction = 1;
+  SporeModel *model = rig_fluid_model(&cube, 200, "temperature", temperature, "thermostat", thermostat, NULL);
+  SporeBodyDescription *blood = rig_passive(rig, "blood", model, own_spheres(rig, model));
+  blood->contact.stiffness = 60, blood->contact.damping = 0.05, blood->contact.friction = 1; /* a liquid sticks */
+  SporeWorld *world = rig_build(rig);
+  uint32_t body = 1;
+  size_t n = model->block_count;
+  double *along = g_new(double, n), height = 0;
+  rig_run(world, 3000);
+  double *before = g_memdup2(spore_world_q(world, body), 3 * n * sizeof *before);
+  rig_run(world, 3000);
+  const double *q = spore_world_q(world, body);
+  for (size_t i = 0; i < n; i++) along[i] = q[3 * i], height += q[3 * i + 1] / (double)n;
+  qsort(along, n, sizeof *along, compare);
+  Spread found = {.along = along[9 * n / 10] - along[n / 10], .height = height};
+  found.kept = kept_pairs(before, q, n, 1.5 * cbrt(0.8442 * SIDE_M * SIDE_M * SIDE_M / (double)n));
+  g_test_message(
+      "temperature %.2f, thermostat %g: spread over %.1f mm, %.1f mm high, %.0f %% of neighbours kept; unsolved: %zu",
+      temperature, thermostat, 1e3 * found.along, 1e3 * found.height, 100 * found.kept,
+      spore_world_unsolved_count(world));
+  g_assert_true(rig_finite(world));
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+  g_free(along);
+  g_free(before);
+  rig_free(rig);
+  return found;
+}
+
+/* Blood that is kept warm runs down as a layer whose particles change places. Blood that sets slides as a lump. */
+static void test_slope(void) {
+  Spread liquid = spread_of(0.7, 200), lump = spread_of(0, 0);
+  g_assert_cmpfloat(liquid.along, >, 1.5 * lump.along);
+  g_assert_cmpfloat(liquid.height, <, lump.height);
+  g_assert_cmpfloat(liquid.kept, <, 0.5);
+  g_assert_cmpfloat(lump.kept, >, 0.8);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/stability/27_too_near", case_27);
+  g_test_add_func("/fluid/slope", test_slope);
   return g_test_run();
 }

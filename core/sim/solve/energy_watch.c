@@ -3,11 +3,10 @@
  *
  * Whatever a step gets wrong makes energy or loses it, and energy that grows out of nothing grows without end. Energy
  * is kinetic, of the models, of links, contacts and gravity. Damping, friction, breaking and cutting only lower it.
- * Devices do the work F.v h at the ends that they drive. All other changes from outside (parameters, gravity, particles
- * that come and go, levels of detail) begin the watch anew. So
- *   gain = E - E_0 - work
- * is made of nothing where it is positive. It is measured against the energy that is at work: what was there at the
- * start, the largest change of each kind since, what devices turned over, and what gravity gives in a few steps.
+ * Devices do the work F.v h at the ends that they drive, and thermostats the work of their power. All other changes
+ * from outside (parameters, gravity, particles that come and go, levels of detail) begin the watch anew. So gain = E -
+ * E_0 - work is made of nothing where it is positive. It is measured against the energy that is at work: what was there
+ * at the start, the largest change of each kind since, what devices turned over, and what gravity gives in a few steps.
  *
  * A look costs as much as a force, so explicit steps are looked at every 64th time. Before that, looks only find what
  * grows fast: explicit Euler makes m g^2 h t / 2 in free fall, a large share at first, and less than a hundredth of
@@ -44,17 +43,24 @@ static uint32_t steps_between(const SporeWorld *world) {
   return 1;
 }
 
-/* Work of the force on a prescribed end, done by what drives the end. */
-static void add_end(SporeEnergyWatch *watch, const SporeEnd *end, SporeVec3 force, double h) {
-  if (!end->prescribed) return;
-  double work = -h * spore_vec3_dot(force, end->velocity);
+static void add_turnover(SporeEnergyWatch *watch, double work) {
   watch->work += work;
   watch->turnover += fabs(work);
+}
+
+/* Work of the force on a prescribed end, done by what drives the end. */
+static void add_end(SporeEnergyWatch *watch, const SporeEnd *end, SporeVec3 force, double h) {
+  if (end->prescribed) add_turnover(watch, -h * spore_vec3_dot(force, end->velocity));
 }
 
 static void add_work(SporeWorld *world) {
   SporeEnergyWatch *watch = &world->solve.watch;
   double h = world->solver.time_step;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (spore_body_moves(body) && body->model->type->power)
+      add_turnover(watch, h * body->model->type->power(body->model));
+  }
   for (size_t i = 0; i < world->contact.count; i++) {
     const SporeContactTerm *term = &world->contact.terms[i];
     add_end(watch, &term->a, term->force, h);
