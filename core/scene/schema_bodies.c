@@ -200,8 +200,9 @@ static const SporeParameter fidelity_parameters[] = {
      FIELD(SporeFidelityFields, mode),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("What moves the body. physical: its model. effect: a formula that costs next to nothing and that other "
-               "bodies do not feel: smoke goes with the air, tissue keeps its shape and gives way to instruments, a "
-               "rigid body stands still. auto: what was advised, as long as that holds for the scene. It may change "
+               "bodies do not feel: smoke goes with the air, tissue keeps its shape, gives way to instruments and goes "
+               "with jaws that hold it, a rigid body stands still. auto: what was advised, as long as that holds for "
+               "the scene. It may change "
                "while it runs.")},
     {.name = "advice",
      .type = SPORE_CHOICE,

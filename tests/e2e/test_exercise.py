@@ -65,9 +65,12 @@ def run(parts, steps, attributes="", *options):
     return json.loads(spore("run", "scene.spore", "-n", steps, "--json", *options).stdout)["exercise"]
 
 
-def run_shipped(name, parts, steps):
-    """A shipped scene, with an exercise of these parts."""
+def run_shipped(name, parts, steps, effect=""):
+    """A shipped scene, with an exercise of these parts; effect: the body that is one."""
     text = (SCENES / f"{name}.spore").read_text().split("<exercise")[0].replace("</spore>", "")
+    if effect:
+        head, body = text.split(f'<body name="{effect}">')
+        text = f'{head}<body name="{effect}">' + body.replace("</body>", '<fidelity mode="effect"/></body>', 1)
     (SCENES / "part.spore").write_text(f"{text}<exercise>{parts}</exercise></spore>")
     done = subprocess.run([SPORE, "run", SCENES / "part.spore", "-n", str(steps), "--json"], capture_output=True,
                           text=True, timeout=300)
@@ -271,6 +274,9 @@ def clip_holds_and_needle_pierces():
                               'time="0.1"/><held name="long" body="tube_right" time="60"/>', 800))
     assert clamp["yes"]["phase"] == clamp["held"]["phase"] == "done" and clamp["long"]["phase"] == "open", clamp
     near(clamp["held"]["done_s"] - clamp["yes"]["done_s"], 0.1, 0.005)
+    drawn = run_shipped("plate8-clamp", '<held name="held" body="tube_right" time="1"/><lifted name="up" body="tube_right" '
+                        'height="0.0005"/><lifted name="far" body="tube_right" height="0.1"/>', 700, "tube_right")
+    assert left(drawn) == ["far"], "a clamp holds an effect, and takes it along"
     needle = steps(run_shipped("suture", '<pierced name="yes" body="skin"/><pierced name="thrice" body="skin" '
                                'count="1000"/><pierced name="no" body="thread"/>', 1500))
     assert needle["yes"]["phase"] == "done" and needle["thrice"]["phase"] == needle["no"]["phase"] == "open", needle

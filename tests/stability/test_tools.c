@@ -339,6 +339,43 @@ static void test_bipolar(void) {
   rig_free(rig);
 }
 
+/* Height of the tissue's highest node. */
+static double top(const SporeWorld *world) {
+  double highest = -HUGE_VAL;
+  for (size_t i = 0; i < spore_world_body_model(world, TISSUE)->node_count; i++)
+    highest = fmax(highest, spore_world_q(world, TISSUE)[3 * i + 1]);
+  return highest;
+}
+
+/* A clamp stops at tissue that is an effect, takes it along, and gives it back to its shape; beside it, it shuts. */
+static void test_effect_is_clamped(void) {
+  for (int beside = 0; beside < 2; beside++) {
+    Hand hand = {.base = {&hand_type}, .open_s = 9, .buttons = 2};
+    Rig *rig = scene(&spore_clamp, 2, NULL);
+    SporeBodyDescription *tissue = &g_array_index(rig->bodies, SporeBodyDescription, TISSUE);
+    tissue->effect = true;
+    if (beside) tissue->pose.position.z += 0.1;
+    SporeWorld *world = rig_build(rig);
+    spore_world_set_device(world, SHAFT, &hand.base);
+    double rest = top(world);
+    run_to(world, 0.95);
+    say(world, "closed");
+    g_assert_cmpint(spore_world_tool_holds(world, 0, TISSUE) > 0, ==, !beside);
+    g_assert_cmpint(spore_world_tool_state(world, 0).opening > 0.01, ==, !beside);
+    uint64_t before = spore_allocation_count();
+    run_to(world, 1.7);
+    say(world, "lifted");
+    g_assert_cmpuint(spore_allocation_count(), ==, before);
+    g_test_message("its top rose by %.1f mm", 1e3 * (top(world) - rest));
+    g_assert_cmpint(top(world) > rest + 0.02, ==, !beside);
+    g_assert_cmpuint(spore_world_monitor(world)->lost_holds, ==, 0);
+    run_to(world, 6);
+    g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), ==, 0);
+    g_assert_cmpfloat_with_epsilon(top(world), rest, 1e-9);
+    rig_free(rig);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tools/grasper", test_grasper);
@@ -349,5 +386,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/tools/refused", test_refused);
   g_test_add_func("/tools/scissors", test_scissors);
   g_test_add_func("/tools/bipolar", test_bipolar);
+  g_test_add_func("/tools/effect_is_clamped", test_effect_is_clamped);
   return g_test_run();
 }

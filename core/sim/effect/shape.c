@@ -1,5 +1,5 @@
-/* Tissue as an effect: it has the shape of time 0, and gives way to instruments. What they press in goes with them;
- * what they have left comes back in a fraction of a second. */
+/* Tissue as an effect: it has the shape of time 0, and gives way to instruments. What they press in goes with them, and
+ * so does what jaws hold; what they have left comes back in a fraction of a second. */
 #include <assert.h>
 #include <string.h>
 
@@ -7,6 +7,8 @@
 #include "core/sim/world_private.h"
 
 #define MOST_DENTS 8    /* at a time; where more of an instrument presses, the deepest do */
+#define MOST_HOLDS 8    /* at a time, of what jaws hold: the farthest from its jaw first */
+#define HOLD_WIDTH 2.0  /* of what goes with the jaws, in radii of the tissue's sphere */
 #define DEEP 0.02       /* of the radius of the sphere: what is less deep makes no dent of its own */
 #define LEAST_WIDTH 0.5 /* of a dent, in radii of the tissue's sphere */
 #define BACK_S 0.15     /* time in which what was pressed in comes back, but for 1/e of it */
@@ -15,14 +17,26 @@
 typedef struct Shape {
   SporeWorld *world;
   const SporeBody *body;
-  SporeDent dents[MOST_DENTS];
+  SporeDent dents[MOST_DENTS + MOST_HOLDS];
   size_t dent_count;
 } Shape;
+
+/* Whether jaws hold the body, one of which is that; what they hold goes with them, and they press it no further. */
+static bool holds(const SporeWorld *world, uint32_t jaw, const SporeBody *body) {
+  bool held = false;
+  for (size_t i = 0; i < world->tools.count && !held; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    if (tool->bodies[SPORE_TOOL_JAW_A] == jaw || tool->bodies[SPORE_TOOL_JAW_B] == jaw)
+      held = tool->type->holds && tool->type->holds(world, tool, (uint32_t)(body - world->bodies)) > 0;
+  }
+  return held;
+}
 
 static bool presses(const SporeWorld *world, uint32_t active, const SporeBody *body) {
   const SporeBody *other = &world->bodies[active];
   int64_t group = other->collision.fields.group;
-  return other->role == SPORE_ACTIVE && !(group != 0 && group == body->collision.fields.group);
+  return other->role == SPORE_ACTIVE && !(group != 0 && group == body->collision.fields.group) &&
+         !holds(world, active, body);
 }
 
 /* Centre of the instrument's sphere when the step ends. */
@@ -85,6 +99,35 @@ static void find_dents(Shape *shape) {
   }
 }
 
+/* Of the spheres that a tool holds the one that is farthest from where its jaw takes it, as it is dented by now. */
+static void lag(const Shape *shape, const SporeTool *tool, SporeDent *farthest) {
+  const SporeWorld *world = shape->world;
+  const SporeBody *body = shape->body;
+  const double *next = world->state.next_q + body->q_offset;
+  for (size_t i = tool->spring_start; i < tool->spring_start + tool->spring_count; i++) {
+    const SporeSpringTerm *term = &world->links.springs[i];
+    if (!world->links.active[i] || &world->bodies[term->a.body] != body) continue;
+    SporeVec3 place = spore_mapping_position(term->a.mapping, term->a.point, next);
+    SporeVec3 to =
+        spore_mapping_position(term->b.mapping, 0, world->state.target_q + world->bodies[term->b.body].q_offset);
+    SporeVec3 push = spore_vec3_sub(to, spore_vec3_add(place, spore_dents_at(shape->dents, shape->dent_count, place)));
+    if (!(spore_vec3_length(push) > fmax(AT_REST_M, spore_vec3_length(farthest->push)))) continue;
+    double own = world->contact.spheres.radius[body->collision.start + term->a.point];
+    *farthest = (SporeDent){place, push, HOLD_WIDTH * own};
+  }
+}
+
+/* After those of what presses: what is held is where its jaw is. */
+static void find_holds(Shape *shape) {
+  for (size_t n = 0; n < MOST_HOLDS; n++) {
+    SporeDent farthest = {.width = 0};
+    for (size_t i = 0; i < shape->world->tools.count; i++)
+      if (shape->world->tools.all[i]->type->holds) lag(shape, shape->world->tools.all[i], &farthest);
+    if (!(farthest.width > 0)) return;
+    shape->dents[shape->dent_count++] = farthest;
+  }
+}
+
 /* What was pressed in comes part of the way back. Returns how far the farthest node is from its place at rest, m. */
 static double come_back(const SporeWorld *world, const SporeBody *body) {
   const double *rest = world->state.rest_q + body->q_offset, *q = world->state.q + body->q_offset;
@@ -114,6 +157,7 @@ bool spore_body_shape_effect(SporeWorld *world, SporeBody *body) {
   Shape shape = {.world = world, .body = body};
   double farthest = come_back(world, body);
   find_dents(&shape);
+  find_holds(&shape);
   if (shape.dent_count == 0 && body->effect.settled) return false;
   body->effect.settled = shape.dent_count == 0 && farthest < AT_REST_M;
   double *next = world->state.next_q + body->q_offset;

@@ -3,7 +3,10 @@
  * The jaws turn toward the opening that the device wants. They turn the slower, the nearer the squeeze comes to their
  * torque, and give way above it, so that they never press with more. When the squeeze reaches half of the torque, or
  * the jaws are shut, each sphere that a jaw touches is tied to the jaw by a spring without length. Opening the jaws
- * releases the spheres. */
+ * releases the spheres.
+ *
+ * Tissue that is an effect gives way, and does not balance their torque. Jaws hold what of it lies between both of
+ * them, it goes with them (core/sim/effect/shape.c), and they stay as they are until they open. */
 #include <assert.h>
 #include <string.h>
 
@@ -14,6 +17,8 @@
 
 #define HOLD_SHARE 0.5     /* of the torque: squeeze from which jaws hold */
 #define LET_GO_RAD 0.02    /* opening beyond that at which holding began, which releases */
+#define PINCHED 0.3        /* of the radius of an effect's sphere: depth of both jaws in it together, to hold it */
+#define REACHED -0.1       /* the same of each: from there a jaw reaches it */
 #define SECOND_BUTTON 0x2u /* opens a clamp */
 
 const char *const spore_jaw_triggers[] = {"grip", "button", NULL};
@@ -153,6 +158,49 @@ static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
   if (jaws->held_at < 0) jaws->held_at = jaws->opening;
 }
 
+/* How deep the jaw is in the ball, m; negative: it does not touch it. */
+static double depth_in(const SporeWorld *world, const SporeJaw *jaw, SporeVec3 centre, double radius) {
+  assert(jaw->body < world->body_count);
+  double deepest = -HUGE_VAL;
+  const SporeBody *body = &world->bodies[jaw->body];
+  const SporeMapping *spheres = &body->collision.spheres;
+  for (size_t i = 0; i < spheres->point_count; i++) {
+    SporeVec3 at = spore_mapping_position(spheres, i, world->state.q + body->q_offset);
+    double reach = radius + world->contact.spheres.radius[body->collision.start + i];
+    deepest = fmax(deepest, reach - spore_vec3_distance(at, centre));
+  }
+  return deepest;
+}
+
+/* Whether jaws feel the body where it is an effect. */
+static bool pinch_body(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body) {
+  int64_t group = world->bodies[jaws->jaw[0].body].collision.fields.group;
+  return body->effect.on && !(group != 0 && group == body->collision.fields.group);
+}
+
+/* Whether both jaws have a sphere of the effect between them. */
+static bool pinch_sphere(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body, size_t sphere) {
+  double radius = world->contact.spheres.radius[body->collision.start + sphere];
+  SporeVec3 centre = spore_mapping_position(&body->collision.spheres, sphere, world->state.q + body->q_offset);
+  double a = depth_in(world, &jaws->jaw[0], centre, radius), b = depth_in(world, &jaws->jaw[1], centre, radius);
+  return fmin(a, b) > REACHED * radius && a + b > PINCHED * radius;
+}
+
+/* Holds the spheres of effects that the jaws pinch; whether there are any. */
+static bool hold_pinched(SporeWorld *world, SporeJaws *jaws) {
+  bool found = false;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    size_t count = pinch_body(world, jaws, body) ? body->collision.spheres.point_count : 0;
+    for (size_t i = 0; i < count; i++) {
+      if (!pinch_sphere(world, jaws, body, i)) continue;
+      hold_sphere(world, jaws, jaws->jaw[0].body, (uint32_t)(body->collision.start + i));
+      found = true;
+    }
+  }
+  return found;
+}
+
 static void tear(SporeWorld *world, SporeTool *tool) {
   SporeJaws *jaws = (SporeJaws *)tool;
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
@@ -207,6 +255,15 @@ static double next_opening(const SporeJaws *jaws, double wanted, double h) {
   return fmin(fmax(jaws->opening + change, 0), jaws->fields.opening);
 }
 
+static bool hold_effect(const SporeWorld *world, const SporeJaws *jaws) {
+  bool found = false;
+  for (size_t i = 0; i < jaws->tool.spring_count && !found; i++) {
+    const SporeHold *hold = &jaws->holds[i];
+    found = hold->state == SPORE_HOLD_TIED && world->bodies[world->contact.spheres.body[hold->sphere]].effect.on;
+  }
+  return found;
+}
+
 static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
   assert(jaw->body < world->body_count);
   const double *shaft = world->state.target_q + world->bodies[jaws->tool.bodies[0]].q_offset;
@@ -246,10 +303,13 @@ void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
   double before = jaws->opening;
   bool shut = wanted <= 0 && jaws->opening <= 0;
   bool presses = shut ? jaws->squeeze > 0 : wanted < jaws->opening && jaws->squeeze >= HOLD_SHARE * jaws->fields.torque;
+  bool closes = wanted < jaws->opening && !hold_effect(world, jaws);
+  presses |= closes && tool->spring_count > 0 && hold_pinched(world, jaws);
   if (presses && tool->spring_count > 0) hold_touched(world, jaws);
   if (presses && jaws->latches) jaws->latched = true;
   if (jaws->held_at >= 0 && wanted > jaws->held_at + LET_GO_RAD) let_go(world, jaws);
-  jaws->opening = next_opening(jaws, wanted, world->solver.time_step);
+  if (wanted >= jaws->opening || !hold_effect(world, jaws))
+    jaws->opening = next_opening(jaws, wanted, world->solver.time_step);
   for (int j = 0; j < 2; j++)
     if (jaws->jaw[j].body != SPORE_NO_BODY) place_jaw(world, jaws, &jaws->jaw[j]);
   if (jaws->opening > before) jaws->stroke = jaws->opening;
