@@ -83,7 +83,17 @@ static void close_output(void) {
   _exit(SPORE_EXIT_INPUT);
 }
 
+/* The stack grows as it is used. Where memory is short that fails, and ends a program without a word: what it needs is
+ * taken before anything else. */
+#define STACK_BYTES (256 * 1024)
+#define PAGE_BYTES 4096
+static __attribute__((noinline)) void take_stack(void) {
+  volatile char room[STACK_BYTES];
+  for (gsize i = 0; i < sizeof room; i += PAGE_BYTES) room[i] = 0;
+}
+
 int main(int argc, char **argv) {
+  take_stack();
   spore_catalogue_start();
   spore_ending_prepare();
   atexit(close_output);
