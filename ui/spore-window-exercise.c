@@ -1,6 +1,7 @@
 /* The exercise: steps made by picking, metrics, their order and thresholds, and trying them out. */
 #include "core/author/exercise_edits.h"
 #include "core/exercise/event.h"
+#include "ui/document/attempts.h"
 #include "ui/spore-window-private.h"
 
 #include <glib/gi18n.h>
@@ -84,12 +85,20 @@ static void act_skip_to_step(GSimpleAction *action, GVariant *parameter, gpointe
   spore_exercise_panel_skip(SPORE_EXERCISE_PANEL(self->exercise), selected_part(self));
 }
 
+static void act_repeat_attempt(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  const SporeAttempt attempt = {.when = g_variant_get_int64(parameter)};
+  g_autofree char *file = scene ? spore_attempts_track_file(scene, &attempt) : NULL;
+  if (file) spore_player_repeat(self->player, file);
+}
+
 void spore_window_add_exercise_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"add-step", act_add_step, "s"},     {"aim-step", act_aim_step},
       {"add-metric", act_add_metric, "s"}, {"move-part", act_move_part, "i"},
       {"remove-part", act_remove_part},    {"set-threshold", act_set_threshold, "(sss)"},
-      {"skip-to-step", act_skip_to_step},
+      {"skip-to-step", act_skip_to_step},  {"repeat-attempt", act_repeat_attempt, "x"},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

@@ -171,6 +171,8 @@ static const char *hint_for(SporeWindow *self) {
   if (edits)
     return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
   if (g_str_equal(g_variant_get_string(tool, NULL), "probe") && leading_hint(self)) return leading_hint(self);
+  if (spore_player_is_repeating(self->player))
+    return _("An attempt is repeated; F5 pauses and goes on, Shift+F5 ends it and goes back to the start");
   if (spore_player_is_playing(self->player))
     return _("Choose Lead: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
   if (!spore_player_get_session(self->player))
@@ -291,6 +293,7 @@ void spore_window_update_actions(SporeWindow *self) {
   set_enabled(self, "save-picture-dialog", bodies);
   set_enabled(self, "save-film", session && idle);
   set_enabled(self, "save-film-dialog", session && idle);
+  set_enabled(self, "repeat-attempt", bodies);
   set_enabled(self, "film-attempts", idle);
   set_enabled(self, "film-attempts-dialog", idle);
   set_enabled(self, "save-numbers", session);

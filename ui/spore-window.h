@@ -23,6 +23,7 @@
  *               save-plan-dialog
  *   exercise    add-step [s element], aim-step, add-metric [s element], move-part [i -1 or 1], remove-part (the
  *               selected one), set-threshold [s path, s "good" or "pass", s number and unit], skip-to-step,
+ *               repeat-attempt [x when it ended, s since 1970],
  *               film-attempts [s path, ax when they ended, s since 1970: one, or two side by side],
  *               film-attempts-dialog [ax],
  *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]

@@ -238,6 +238,28 @@ static void test_exercise_equals_loop(Fixture *fixture, gconstpointer data) {
   spore_session_free(session);
 }
 
+/* A session that repeats an attempt has its score, and is no attempt. */
+static void test_exercise_is_repeated(Fixture *fixture, gconstpointer data) {
+  add_exercise(fixture);
+  g_autofree char *expected = loop_report(fixture, STEPS);
+  SporeSession *first = new_session(fixture, 1, &fixture->track);
+  spore_session_step(first, STEPS);
+  SporeTrack *input = spore_session_recording(first);
+  SporeSession *session = new_session(fixture, 1, input);
+  spore_session_repeat(session, input);
+  SporeExerciseState attempt;
+  for (int i = 0; i < 2; i++) {
+    spore_session_step(session, STEPS);
+    g_autofree char *repeated = report_of(session);
+    g_assert_cmpstr(repeated, ==, expected);
+    g_assert_false(spore_session_take_attempt(session, &attempt));
+    spore_session_reset(session);
+  }
+  g_assert_true(spore_session_take_attempt(first, &attempt));
+  spore_session_free(session);
+  spore_session_free(first);
+}
+
 /* A try-out is told from an attempt, and a new beginning is an attempt. */
 static void test_exercise_is_tried(Fixture *fixture, gconstpointer data) {
   add_exercise(fixture);
@@ -489,6 +511,7 @@ int main(int argc, char **argv) {
       {"pause-stands-still", test_pause_stands_still},
       {"reset-goes-back", test_reset_goes_back},
       {"exercise-equals-loop", test_exercise_equals_loop},
+      {"exercise-is-repeated", test_exercise_is_repeated},
       {"exercise-is-tried", test_exercise_is_tried},
       {"exercise-carries-nothing-over", test_exercise_carries_nothing_over},
       {"no-exercise", test_no_exercise},

@@ -2237,7 +2237,8 @@ def shown(editor, pattern):
 
 
 def film_attempts(editor, exercise):
-    """Plays the exercise again, ticks both attempts and films them side by side, ten times as fast."""
+    """Plays the exercise again, ticks both attempts and films them side by side, ten times as fast; one is repeated, which is no
+    third attempt."""
     tracks = pathlib.Path(os.environ["XDG_DATA_HOME"]) / "spore" / "attempts"
     ended = lambda: sorted(int(file.stem) for file in tracks.glob("*/*.track"))
     ui.wait(ended, "the input of the attempt to be kept")
@@ -2249,7 +2250,7 @@ def film_attempts(editor, exercise):
     editor.act("play")
     ui.wait(lambda: len(ended()) == 2, "the second attempt to be kept", 120)
     editor.act("pause")
-    name = f"^Film .*score {exercise['score']:.1f}, "
+    name = f"^Choose .*score {exercise['score']:.1f}, "
     ticks = ui.wait(lambda: (found := [node for node in editor.nodes("check box", showing=False) if re.search(name, node.get_name() or "")])[1:] and found,
                     "two attempts to tick")
     for tick in ticks:
@@ -2266,7 +2267,21 @@ def film_attempts(editor, exercise):
         assert told.size == (2560, 720) and len(told.times) == round(3 * exercise["time_s"]), told.times
     else:
         ui.wait(lambda: "libvpx-dev" in (editor.message() or ""), "the refusal of a film")
+    button = editor.look("push button", "^Repeat$", showing=False)
+    assert not button.get_state_set().contains(editor.atspi.StateType.SENSITIVE)
+    editor.press(ticks[0])
+    ui.wait(lambda: button.get_state_set().contains(editor.atspi.StateType.SENSITIVE), "Repeat to be possible")
+    editor.act("speed", "s", "0.1")
+    editor.act("repeat-attempt", "x", ended()[0])
+    editor.find("label", "^An attempt is repeated")
+    ui.wait(lambda: shown(editor, "^Under way: "), "the repeated exercise to begin")
     editor.act("speed", "s", "0")
+    said = ui.wait(lambda: shown(editor, "^Done: "), "the repeated exercise to be done", 60)
+    assert f"score {exercise['score']:.1f}, passed" in said, said
+    editor.act("pause")
+    editor.act("reset")
+    ui.wait(lambda: not editor.look("label", "^An attempt is repeated"), "the repetition to end")
+    assert len(ended()) == 2
 
 
 @check

@@ -107,6 +107,22 @@ char *spore_attempts_track_file(const char *scene, const SporeAttempt *attempt) 
   return g_build_filename(folder, name, NULL);
 }
 
+SporeTrack *spore_attempts_read_track(const char *file, GError **error) {
+  g_autofree char *text = NULL;
+  gsize size;
+  g_autoptr(GError) cause = NULL;
+  if (!g_file_get_contents(file, &text, &size, &cause)) {
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("the input of the attempt cannot be read: %s"), cause->message);
+    return NULL;
+  }
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTrack *track = g_new0(SporeTrack, 1);
+  if (spore_track_parse(track, file, text, size, &fault)) return track;
+  spore_error_propagate(&fault, error);
+  g_free(track);
+  return NULL;
+}
+
 static int by_time(gconstpointer one, gconstpointer other) {
   gint64 a = g_ascii_strtoll(*(const char *const *)one, NULL, 10),
          b = g_ascii_strtoll(*(const char *const *)other, NULL, 10);

@@ -27,6 +27,8 @@ GArray *spore_attempts_read(const char *scene);
 gboolean spore_attempts_add(const char *scene, const SporeAttempt *attempt, GError **error);
 /* Where the input of an attempt is kept, if it is. g_free. */
 char *spore_attempts_track_file(const char *scene, const SporeAttempt *attempt);
+/* Reads such a file. NULL with a GError; free with spore_track_clear and g_free. Any thread. */
+SporeTrack *spore_attempts_read_track(const char *file, GError **error);
 /* Keeps the input of an attempt, and takes away that of the oldest where there are too many. Any thread. FALSE with a
  * GError: the file cannot be written. */
 gboolean spore_attempts_add_track(const char *scene, const SporeAttempt *attempt, const SporeTrack *input,

@@ -1,8 +1,7 @@
 /* Repeats a run from what moved it, and films it. */
 #include "ui/jobs/film-work.h"
 
-#include <glib/gi18n.h>
-
+#include "ui/document/attempts.h"
 #include "ui/jobs/under-way.h"
 
 #define WIDTH 1280 /* of each run's picture, pixels */
@@ -41,24 +40,11 @@ static bool is_cancelled(void *data) {
   return !spore_progress(told->progress, told->fraction, NULL);
 }
 
-static gboolean read_input(SporeFilmWork *work, guint run, GError **error) {
-  const char *file = work->input_files[run];
-  g_autofree char *text = NULL;
-  gsize size;
-  g_autoptr(GError) cause = NULL;
-  if (!file) return TRUE;
-  if (!g_file_get_contents(file, &text, &size, &cause))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("the input of the attempt cannot be read: %s"),
-                             cause->message);
-  SporeError fault = SPORE_ERROR_INIT;
-  work->inputs[run] = g_new0(SporeTrack, 1);
-  return spore_track_parse(work->inputs[run], file, text, size, &fault) || spore_error_propagate(&fault, error);
-}
-
 /* Prepares the runs. *filming has those that were prepared, whatever happens. */
 static gboolean prepare(SporeFilmWork *work, SporeFilming *filming, GError **error) {
   for (guint run = 0; run < work->count; run++) {
-    if (!read_input(work, run, error)) return FALSE;
+    const char *file = work->input_files[run];
+    if (file && !(work->inputs[run] = spore_attempts_read_track(file, error))) return FALSE;
     SporeSimulation *simulation = spore_simulation_new(work->document, NULL, work->inputs[run], filming->cancel, error);
     if (!simulation) return FALSE;
     filming->documents[run] = work->document;

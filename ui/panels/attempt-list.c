@@ -5,9 +5,9 @@
 
 #include "ui/document/attempts.h"
 
-/* The buttons that tick attempts, and the one that films those. */
+/* The buttons that tick attempts, and those that do something with them. */
 typedef struct Choice {
-  GtkWidget *film;
+  GtkWidget *repeat, *film;
   GPtrArray *ticks; /* of GtkToggleButton, borrowed */
   GArray *whens;    /* of gint64, by ticks */
 } Choice;
@@ -19,23 +19,29 @@ static void free_choice(gpointer data) {
   g_free(choice);
 }
 
-/* One attempt is filmed, or two side by side, the older at the left. */
-static void update_film(Choice *choice) {
+/* action: NULL: the button can do nothing. Sinks the target. */
+static void set_action(GtkWidget *button, const char *action, GVariant *target) {
+  g_autoptr(GVariant) sunk = g_variant_ref_sink(target);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), NULL);
+  gtk_actionable_set_action_target_value(GTK_ACTIONABLE(button), sunk);
+  if (action) gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+  else gtk_widget_set_sensitive(button, FALSE);
+}
+
+/* One attempt is filmed, or two side by side, the older at the left; one is repeated. */
+static void update_buttons(Choice *choice) {
   GVariantBuilder whens;
   g_variant_builder_init(&whens, G_VARIANT_TYPE("ax"));
   guint count = 0;
+  gint64 newest = 0;
   for (guint i = choice->ticks->len; i > 0; i--) {
     if (!gtk_toggle_button_get_active(choice->ticks->pdata[i - 1])) continue;
-    g_variant_builder_add(&whens, "x", g_array_index(choice->whens, gint64, i - 1));
+    newest = g_array_index(choice->whens, gint64, i - 1);
+    g_variant_builder_add(&whens, "x", newest);
     count++;
   }
-  GVariant *target = g_variant_ref_sink(g_variant_builder_end(&whens));
-  gboolean can = count == 1 || count == 2;
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(choice->film), NULL);
-  gtk_actionable_set_action_target_value(GTK_ACTIONABLE(choice->film), target);
-  if (can) gtk_actionable_set_action_name(GTK_ACTIONABLE(choice->film), "win.film-attempts-dialog");
-  else gtk_widget_set_sensitive(choice->film, FALSE);
-  g_variant_unref(target);
+  set_action(choice->film, count == 1 || count == 2 ? "win.film-attempts-dialog" : NULL, g_variant_builder_end(&whens));
+  set_action(choice->repeat, count == 1 ? "win.repeat-attempt" : NULL, g_variant_new_int64(newest));
 }
 
 static void add_label(GtkBox *box, const char *text, const char *class) {
@@ -63,10 +69,10 @@ static gboolean has_track(const char *scene, const SporeAttempt *attempt) {
 
 static void add_tick(GtkBox *row, Choice *choice, const SporeAttempt *attempt, const char *text) {
   GtkWidget *tick = gtk_check_button_new();
-  g_autofree char *name = g_strdup_printf(_("Film %s"), text);
+  g_autofree char *name = g_strdup_printf(_("Choose %s"), text);
   atk_object_set_name(gtk_widget_get_accessible(tick), name);
-  gtk_widget_set_tooltip_text(tick, _("To film this attempt, or two side by side"));
-  g_signal_connect_swapped(tick, "toggled", G_CALLBACK(update_film), choice);
+  gtk_widget_set_tooltip_text(tick, _("To repeat this attempt, or to film one or two"));
+  g_signal_connect_swapped(tick, "toggled", G_CALLBACK(update_buttons), choice);
   g_ptr_array_add(choice->ticks, tick);
   g_array_append_val(choice->whens, attempt->when);
   gtk_container_add(GTK_CONTAINER(row), tick);
@@ -84,8 +90,10 @@ static Choice *new_choice(void) {
   Choice *choice = g_new0(Choice, 1);
   choice->ticks = g_ptr_array_new();
   choice->whens = g_array_new(FALSE, FALSE, sizeof(gint64));
+  choice->repeat = gtk_button_new_with_label(_("Repeat"));
+  gtk_widget_set_tooltip_text(choice->repeat, _("Tick one attempt, to see it again in the scene as it is now; Shift+F5 "
+                                                "ends it"));
   choice->film = gtk_button_new_with_label(_("Film…"));
-  gtk_widget_set_halign(choice->film, GTK_ALIGN_START);
   gtk_widget_set_tooltip_text(choice->film,
                               _("Tick one attempt, or two to see them side by side: they are repeated in the scene as "
                                 "it is now, and filmed as fast as runs are played"));
@@ -98,12 +106,15 @@ void spore_fill_attempt_list(GtkBox *box, const char *scene, const GArray *attem
   if (attempts->len > 0) add_label(box, _("Attempts"), "heading");
   for (guint i = 0; i < MIN(attempts->len, SPORE_ATTEMPTS_WITH_TRACKS); i++)
     add_attempt(box, scene, &g_array_index(attempts, SporeAttempt, attempts->len - 1 - i), choice);
-  gtk_container_add(GTK_CONTAINER(box), choice->film);
+  GtkWidget *buttons = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+  gtk_container_add(GTK_CONTAINER(buttons), choice->repeat);
+  gtk_container_add(GTK_CONTAINER(buttons), choice->film);
+  gtk_container_add(GTK_CONTAINER(box), buttons);
   gtk_widget_set_tooltip_text(
       GTK_WIDGET(box), _("Runs that ended, newest first, scored by the exercise as it was then; try-outs are not "
                          "among them"));
   gtk_widget_show_all(GTK_WIDGET(box));
-  gtk_widget_set_visible(choice->film, choice->ticks->len > 0);
-  update_film(choice);
+  gtk_widget_set_visible(buttons, choice->ticks->len > 0);
+  update_buttons(choice);
   g_object_set_data_full(G_OBJECT(choice->film), "choice", choice, free_choice);
 }

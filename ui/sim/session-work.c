@@ -1,13 +1,15 @@
 /* Makes and frees sessions on threads of their own. */
 #include "ui/sim/session-work.h"
 
+#include "ui/document/attempts.h"
 #include "ui/jobs/under-way.h"
 
 #define MOST_THREADS 8
 
-SporeSessionWork *spore_session_work_new(const SporeDocument *document) {
+SporeSessionWork *spore_session_work_new(const SporeDocument *document, const char *repeated) {
   SporeSessionWork *work = g_new0(SporeSessionWork, 1);
   work->document = spore_document_copy(document);
+  work->repeated = g_strdup(repeated);
   spore_work_begin();
   return work;
 }
@@ -18,7 +20,12 @@ gboolean spore_session_work_run(gpointer data, const SporeProgress *progress, GE
   SporeSessionWork *work = data;
   const SporeCancel cancel = {is_cancelled, (void *)(guintptr)progress};
   int threads = (int)CLAMP(g_get_num_processors() / 2, 1, MOST_THREADS);
-  work->session = spore_session_new(work->document, threads, NULL, &cancel, error);
+  SporeTrack *input = work->repeated ? spore_attempts_read_track(work->repeated, error) : NULL;
+  if (work->repeated && !input) return FALSE;
+  work->session = spore_session_new(work->document, threads, input, &cancel, error);
+  if (work->session && input) spore_session_repeat(work->session, g_steal_pointer(&input));
+  if (input) spore_track_clear(input);
+  g_free(input);
   return work->session != NULL;
 }
 
@@ -27,6 +34,7 @@ void spore_session_work_free(gpointer data) {
   SporeSessionWork *work = data;
   spore_session_free(work->session);
   spore_document_free(work->document);
+  g_free(work->repeated);
   g_free(work);
   spore_work_end();
 }

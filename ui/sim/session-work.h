@@ -8,10 +8,11 @@
 
 typedef struct SporeSessionWork {
   SporeDocument *document; /* a copy of the scene, the worker's own */
+  char *repeated;          /* file with the input of an attempt to repeat; NULL: none */
   SporeSession *session;   /* out; taken by setting it to NULL */
 } SporeSessionWork;
 
-SporeSessionWork *spore_session_work_new(const SporeDocument *document);
+SporeSessionWork *spore_session_work_new(const SporeDocument *document, const char *repeated);
 gboolean spore_session_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_session_work_free(gpointer work);
 /* Takes the session and frees it on a thread of its own, since a step under way has to end first. */

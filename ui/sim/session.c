@@ -68,7 +68,8 @@ struct SporeSession {
   SporeTrack recording;
   SporeSessionFigures figures;
   SporeNumbers numbers;
-  guint64 stride; /* steps a row */
+  guint64 stride;       /* steps a row */
+  SporeTrack *repeated; /* input of an attempt; NULL: none is repeated */
   gboolean has_attempt;
   SporeExerciseState attempt; /* the last that ended and was not taken */
 
@@ -279,8 +280,9 @@ static void watch_exercise(SporeSession *session) {
   spore_exercise_watch(exercise, simulation->world);
   if (!running || spore_exercise_phase(exercise) == SPORE_EXERCISE_RUNNING) return;
   SporeExerciseState state = spore_exercise_state(exercise);
-  session->has_attempt |= !state.tried;
-  if (!state.tried) session->attempt = state;
+  gboolean counts = !state.tried && !session->repeated;
+  session->has_attempt |= counts;
+  if (counts) session->attempt = state;
 }
 
 static void restart_exercise(SporeSession *session) {
@@ -427,6 +429,8 @@ void spore_session_free(SporeSession *session) {
     session->recorders[i].pointer->type->close(session->recorders[i].pointer);
   g_free(session->recorders);
   if (session->pool) spore_pool_free(session->pool);
+  if (session->repeated) spore_track_clear(session->repeated);
+  g_free(session->repeated);
   spore_track_clear(&session->recording);
   g_cond_clear(&session->stood);
   g_cond_clear(&session->wake);
@@ -661,6 +665,12 @@ gboolean spore_session_take_attempt(SporeSession *session, SporeExerciseState *s
   session->has_attempt = FALSE;
   g_mutex_unlock(&session->mutex);
   return has;
+}
+
+void spore_session_repeat(SporeSession *session, SporeTrack *input) {
+  g_mutex_lock(&session->mutex);
+  session->repeated = input;
+  g_mutex_unlock(&session->mutex);
 }
 
 void spore_session_try_out(SporeSession *session) {

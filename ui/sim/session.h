@@ -66,6 +66,9 @@ gboolean spore_session_read_exercise(SporeSession *session, SporeExerciseReader 
 /* How an attempt ended, once for each: an exercise from time 0 on that was no try-out. Of those that ended since the
  * last call, the last one. FALSE: none did. */
 gboolean spore_session_take_attempt(SporeSession *session, SporeExerciseState *state);
+/* The input that the session was made with is that of an attempt, which is repeated: no attempt comes of it. Takes the
+ * track, which lives as long as the session. Before the first step. */
+void spore_session_repeat(SporeSession *session, SporeTrack *input);
 /* The scene was changed: the exercise, if there is one, is a try-out until a reset. */
 void spore_session_try_out(SporeSession *session);
 /* spore_exercise_skip_to, between two steps. FALSE: the exercise has no such step. */

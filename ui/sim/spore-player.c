@@ -16,6 +16,7 @@ struct _SporePlayer {
   gboolean given_up;   /* `session` makes no more steps */
   gboolean plays;      /* what is done with the next session */
   guint steps;         /* likewise, where it does not play */
+  char *repeated;      /* file with the input of the attempt that is repeated; NULL: none is */
   gboolean from_start; /* the next session starts at time 0 and copies no state */
   guint remake;        /* idle source: makes a session anew */
   guint take;          /* timeout source, while `next` waits */
@@ -93,6 +94,7 @@ static void made(SporeJob *job, gpointer data, const GError *error, gpointer own
   g_clear_object(&self->making);
   if (error) {
     wish_nothing(self);
+    g_clear_pointer(&self->repeated, g_free);
     replace_session(self, NULL);
     g_signal_emit(self, signals[FAILED], 0, error->message);
     return;
@@ -110,7 +112,7 @@ static gboolean make(gpointer data) {
   self->remake = 0;
   stop_making(self);
   self->making = spore_job_start(_("Preparing the simulation"), spore_session_work_run,
-                                 spore_session_work_new(spore_editor_document_get(self->document)),
+                                 spore_session_work_new(spore_editor_document_get(self->document), self->repeated),
                                  spore_session_work_free, made, G_OBJECT(self));
   g_signal_connect_object(self->making, "progressed", G_CALLBACK(progressed), self, G_CONNECT_SWAPPED);
   g_signal_emit(self, signals[STATE_CHANGED], 0);
@@ -170,6 +172,7 @@ static void spore_player_dispose(GObject *object) {
   SporePlayer *self = SPORE_PLAYER(object);
   spore_player_close(self);
   g_clear_object(&self->document);
+  g_clear_pointer(&self->repeated, g_free);
   G_OBJECT_CLASS(spore_player_parent_class)->dispose(object);
 }
 
@@ -208,6 +211,7 @@ void spore_player_cancel(SporePlayer *self) {
   if (!spore_player_is_making(self)) return;
   stop_making(self);
   wish_nothing(self);
+  g_clear_pointer(&self->repeated, g_free);
   replace_session(self, NULL);
 }
 
@@ -240,7 +244,32 @@ void spore_player_step(SporePlayer *self) {
   tell(self, stands);
 }
 
+void spore_player_repeat(SporePlayer *self, const char *file) {
+  g_free(self->repeated);
+  self->repeated = g_strdup(file);
+  self->plays = self->from_start = TRUE;
+  self->steps = 0;
+  if (has_session(self)) spore_session_try_pause(self->session);
+  self->given_up = TRUE; /* what is asked for now is for the session that is made */
+  make(self);
+}
+
+gboolean spore_player_is_repeating(SporePlayer *self) { return self->repeated != NULL; }
+
+/* Another session, with the scene's own input again. */
+static void end_repetition(SporePlayer *self) {
+  g_clear_pointer(&self->repeated, g_free);
+  self->plays = spore_player_is_playing(self);
+  self->from_start = TRUE;
+  self->steps = 0;
+  make(self);
+}
+
 void spore_player_reset(SporePlayer *self) {
+  if (self->repeated) {
+    end_repetition(self);
+    return;
+  }
   gboolean done = !has_session(self) || spore_session_try_reset(self->session);
   if (spore_player_is_making(self)) self->from_start = TRUE;
   tell(self, done);

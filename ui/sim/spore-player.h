@@ -37,7 +37,10 @@ void spore_player_prepare(SporePlayer *self);
 void spore_player_play(SporePlayer *self);
 void spore_player_pause(SporePlayer *self);
 void spore_player_step(SporePlayer *self);
-void spore_player_reset(SporePlayer *self);
+void spore_player_reset(SporePlayer *self); /* ends the repetition of an attempt, too */
+/* Plays an attempt from time 0: its input is in that file. */
+void spore_player_repeat(SporePlayer *self, const char *file);
+gboolean spore_player_is_repeating(SporePlayer *self);
 gboolean spore_player_is_playing(SporePlayer *self);          /* or will, once the simulation is there */
 void spore_player_set_speed(SporePlayer *self, double speed); /* 1: real time; 0: as fast as it goes */
 
