@@ -258,11 +258,11 @@ typedef struct Warmth {
 
 static Warmth warmth_of(double thermostat) {
   double side, temperature = 0, work = 0, stream = 0.5, dt = 0.005;
-  SporeModel *model = periodic_fluid_at(5, 0.75, thermostat, &side);
+  SporeModel *model = periodic_fluid_at(4, 0.75, thermostat, &side);
   size_t n = model->block_count, size = 3 * n;
   State state = state_new(model, spore_pose_identity(), spore_vec3(stream, 0, 0), (SporeVec3){0, 0, 0});
   double *f = model_force(model, &state), before = total(model, &state), moved = 0, sum = 0;
-  const int settle = 3000, steps = 3000;
+  const int settle = 2000, steps = 2000;
   double *from = NULL;
   for (int k = 0; k < settle + steps; k++) {
     if (k == settle) from = g_memdup2(state.q, size * sizeof *from);

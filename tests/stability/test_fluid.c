@@ -88,7 +88,8 @@ static const SporeSphereSet *own_spheres(Rig *rig, const SporeModel *model) {
   return set;
 }
 
-/* A cube of blood, put onto a floor that is tilted by turning gravity. Neighbours are followed over its last second. */
+/* A cube of blood, put onto a floor that is tilted by turning gravity. Neighbours are followed over the
+ * second half. */
 static Spread spread_of(double temperature, double thermostat) {
   SporeTriangleMesh cube;
   shape_box(&cube, spore_vec3(0, 0.5 * SIDE_M + 0.001, 0), spore_vec3(SIDE_M, SIDE_M, SIDE_M));
@@ -104,9 +105,10 @@ static Spread spread_of(double temperature, double thermostat) {
   uint32_t body = 1;
   size_t n = model->block_count;
   double *along = g_new(double, n), height = 0;
-  rig_run(world, 3000);
+  unsigned steps = rig_steps(3000, 200);
+  rig_run(world, steps);
   double *before = g_memdup2(spore_world_q(world, body), 3 * n * sizeof *before);
-  rig_run(world, 3000);
+  rig_run(world, steps);
   const double *q = spore_world_q(world, body);
   for (size_t i = 0; i < n; i++) along[i] = q[3 * i], height += q[3 * i + 1] / (double)n;
   qsort(along, n, sizeof *along, compare);
@@ -127,6 +129,7 @@ static Spread spread_of(double temperature, double thermostat) {
 /* Blood that is kept warm runs down as a layer whose particles change places. Blood that sets slides as a lump. */
 static void test_slope(void) {
   Spread liquid = spread_of(0.7, 200), lump = spread_of(0, 0);
+  if (rig_sanitized) return;
   g_assert_cmpfloat(liquid.along, >, 1.5 * lump.along);
   g_assert_cmpfloat(liquid.height, <, lump.height);
   g_assert_cmpfloat(liquid.kept, <, 0.5);
