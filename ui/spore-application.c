@@ -36,6 +36,7 @@ static const struct {
     {"win.apply-generated", {"<Control>Return"}},
     {"win.pick-places", {"<Control>e"}},
     {"win.filter", {"<Control>f"}},
+    {"win.search", {"<Control>k"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},
 };

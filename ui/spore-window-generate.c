@@ -171,6 +171,7 @@ static void change_pick_places(GSimpleAction *action, GVariant *state, gpointer 
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
   show_places(self);
   show_candidate(self);
+  spore_window_update_actions(self);
   spore_window_show_hint(self);
 }
 

@@ -91,7 +91,6 @@ void spore_window_show_hands(SporeWindow *self) {
     g_menu_item_set_action_and_target(item, "win.lead", "s", name);
     g_menu_append_item(self->hands, item);
   }
-  g_simple_action_set_enabled(G_SIMPLE_ACTION(action), hands->len > 0);
   g_simple_action_set_state(G_SIMPLE_ACTION(action), g_variant_new_string(led ? spore_object_name(led) : ""));
   spore_window_show_hint(self);
 }

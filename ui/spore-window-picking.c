@@ -10,6 +10,7 @@ static void show_draft(SporeWindow *self) {
   SporePickDraft *draft = &self->draft;
   for (guint i = 0; i < draft->count; i++) places[i] = draft->places[i];
   spore_viewport_set_anchors(SPORE_VIEWPORT(self->viewport), places, draft->count);
+  spore_window_update_actions(self);
   spore_window_show_hint(self);
 }
 

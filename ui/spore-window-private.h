@@ -64,8 +64,8 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  GMenu *mesh_operations;                       /* in the menu */
-  GMenu *link_kinds, *instrument_kinds, *hands; /* hands: the instruments that can be led */
+  GMenu *mesh_operations;                                       /* in the menu */
+  GMenu *link_kinds, *instrument_kinds, *menu, *speeds, *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
@@ -76,6 +76,15 @@ struct _SporeWindow {
   GArray *loose;         /* of guint: ids of the bodies that fall unless they are held */
   gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
+
+/* spore-window-needs.c: what can be done. */
+/* Enables the actions that can be done now. */
+void spore_window_update_actions(SporeWindow *self);
+/* Whether places on the organ can be picked for what the generator makes, and whether the user picks them now. */
+gboolean spore_window_picks_places(SporeWindow *self);
+gboolean spore_window_is_picking(SporeWindow *self);
+/* Why the action cannot be done now, translated; NULL: it can, as far as is known here. */
+const char *spore_window_missing(SporeWindow *self, const char *action);
 
 /* spore-window-state.c: messages, the job that runs, enabled actions. */
 void spore_window_complain(SporeWindow *self, const char *message);
@@ -91,14 +100,9 @@ gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWo
 void spore_window_show_job(SporeWindow *self);
 /* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
 SporeObject *spore_window_body_to_work_on(SporeWindow *self);
-/* Whether places on the organ can be picked for what the generator makes, and whether the user picks them now. */
-gboolean spore_window_picks_places(SporeWindow *self);
-gboolean spore_window_is_picking(SporeWindow *self);
 /* Editing in the view works on the scene at its start. FALSE: the user is told. */
 gboolean spore_window_may_edit(SporeWindow *self);
 void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
-/* Enables the actions that can be done now. */
-void spore_window_update_actions(SporeWindow *self);
 
 /* spore-window-bodies.c: what is done to all that is selected. */
 void spore_window_add_body_actions(SporeWindow *self);
@@ -156,6 +160,9 @@ void spore_window_add_film_actions(SporeWindow *self);
 void spore_window_add_mesh_actions(SporeWindow *self);
 /* files: NULL-terminated, or NULL: none yet. */
 void spore_window_show_import_dialog(SporeWindow *self, const char *const *files);
+
+/* spore-window-search.c: finding what can be done. */
+void spore_window_add_search_action(SporeWindow *self);
 
 /* spore-window-actions.c: scene, simulation and view. */
 void spore_window_add_scene_actions(SporeWindow *self);

@@ -2,8 +2,6 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
-#include "core/author/exercise_edits.h"
-#include "core/author/soft_edits.h"
 #include "core/scene/generated.h"
 #include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
@@ -109,16 +107,6 @@ SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
   return only;
 }
 
-gboolean spore_window_picks_places(SporeWindow *self) {
-  return spore_generator_get_body(self->generator) &&
-         spore_generators[spore_generator_get_options(self->generator)->kind]->places;
-}
-
-gboolean spore_window_is_picking(SporeWindow *self) {
-  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-places");
-  return g_variant_get_boolean(state);
-}
-
 gboolean spore_window_may_edit(SporeWindow *self) {
   SporeSession *session = spore_player_get_session(self->player);
   if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
@@ -191,115 +179,4 @@ void spore_window_show_hint(SporeWindow *self) {
                                  : g_strdup(hint);
   gtk_label_set_text(GTK_LABEL(self->hint), text);
   gtk_widget_set_tooltip_text(self->hint, text); /* a narrow window has no room for all of it */
-}
-
-/* Actions. */
-
-static void set_enabled(SporeWindow *self, const char *action, gboolean enabled) {
-  g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(G_ACTION_MAP(self), action)), enabled);
-}
-
-static void update_generator(SporeWindow *self, gboolean bodies) {
-  gboolean idle = !self->job && !spore_generator_is_working(self->generator);
-  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
-    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
-    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
-    if (kind != SPORE_GENERATE_LABELS) set_enabled(self, generate, idle && bodies);
-    set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
-  }
-  set_enabled(self, "preview-labels-dialog", !self->job);
-  set_enabled(self, "pick-places", spore_window_picks_places(self));
-  set_enabled(self, "automatic-places", spore_window_picks_places(self));
-  set_enabled(self, "make-labels",
-              spore_generator_get_result(self->generator) && spore_generator_get_options(self->generator)->listing);
-  set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
-  set_enabled(self, "cancel-job",
-              self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player));
-}
-
-static void update_study(SporeWindow *self, gboolean bodies) {
-  gboolean studied = spore_editor_document_get_study(self->document) != NULL;
-  set_enabled(self, "measure-accuracy", bodies && !spore_accuracy_is_measuring(SPORE_ACCURACY(self->accuracy)));
-  set_enabled(self, "apply-point", spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)));
-  set_enabled(self, "choose-point", studied);
-  set_enabled(self, "save-study", studied);
-  set_enabled(self, "save-study-dialog", studied);
-}
-
-static void update_exercise(SporeWindow *self, const SporeObject *selected, gboolean bodies, gboolean session) {
-  gboolean step = spore_step_is(selected), part = step || spore_metric_is(selected);
-  set_enabled(self, "add-step", bodies);
-  set_enabled(self, "add-metric", bodies);
-  set_enabled(self, "aim-step", step);
-  set_enabled(self, "skip-to-step", step && session);
-  set_enabled(self, "move-part", part);
-  set_enabled(self, "remove-part", part);
-  set_enabled(self, "save-exercise", session);
-  set_enabled(self, "save-exercise-dialog", session);
-}
-
-static void update_bodies(SporeWindow *self, gboolean idle) {
-  g_autoptr(GPtrArray) selected = spore_editor_document_selected_bodies(self->document);
-  gboolean soft = FALSE;
-  for (guint i = 0; i < selected->len; i++)
-    soft = soft || spore_soft_may(spore_editor_document_get(self->document), selected->pdata[i], NULL);
-  set_enabled(self, "make-soft", idle && soft);
-  set_enabled(self, "hide", selected->len > 0);
-  set_enabled(self, "isolate", selected->len > 0);
-  set_enabled(self, "clear-measures", spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) > 0);
-  set_enabled(self, "show-all", spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) > 0);
-}
-
-void spore_window_update_actions(SporeWindow *self) {
-  SporeDocument *document = spore_editor_document_get(self->document);
-  SporeObject *selected = spore_editor_document_selected(self->document);
-  gsize selected_count;
-  spore_editor_document_get_selected(self->document, &selected_count);
-  gboolean named = selected && spore_object_name(selected),
-           idle = !self->job && !spore_generator_is_working(self->generator);
-  gboolean session = spore_player_get_session(self->player) != NULL;
-  gboolean playing = spore_player_is_playing(self->player);
-  gboolean bodies = spore_object_child_count(spore_document_section(document, "bodies")) > 0;
-  set_enabled(self, "undo", spore_document_can_undo(document));
-  set_enabled(self, "redo", spore_document_can_redo(document));
-  set_enabled(self, "save",
-              spore_editor_document_is_modified(self->document) ||
-                  !spore_editor_document_get_save_file(self->document));
-  set_enabled(self, "delete", named);
-  update_bodies(self, idle);
-  set_enabled(self, "rename", named && selected_count == 1);
-  set_enabled(self, "rename-dialog", named && selected_count == 1);
-  update_generator(self, bodies);
-  set_enabled(self, "measure", bodies);
-  set_enabled(self, "add-pin", bodies);
-  set_enabled(self, "select-organs", bodies);
-  set_enabled(self, "add-link", bodies);
-  set_enabled(self, "tie-link", spore_link_is(selected));
-  update_exercise(self, selected, bodies, session);
-  set_enabled(self, "import", idle);
-  set_enabled(self, "import-dialog", idle);
-  set_enabled(self, "import-dialog-with", idle);
-  set_enabled(self, "change-mesh", idle && bodies);
-  set_enabled(self, "change-mesh-dialog", idle && bodies);
-  set_enabled(self, "measure-mapping", idle && bodies);
-  set_enabled(self, "play", bodies && !playing);
-  set_enabled(self, "pause", playing);
-  set_enabled(self, "play-pause", bodies);
-  set_enabled(self, "step", bodies && !playing);
-  set_enabled(self, "reset", session);
-  set_enabled(self, "save-recording", session);
-  set_enabled(self, "save-recording-dialog", session);
-  set_enabled(self, "save-picture", bodies);
-  set_enabled(self, "save-picture-dialog", bodies);
-  set_enabled(self, "save-film", session && idle);
-  set_enabled(self, "save-film-dialog", session && idle);
-  set_enabled(self, "repeat-attempt", bodies);
-  set_enabled(self, "film-attempts", idle);
-  set_enabled(self, "film-attempts-dialog", idle);
-  set_enabled(self, "save-numbers", session);
-  set_enabled(self, "save-numbers-dialog", session);
-  set_enabled(self, "save-plot", session);
-  set_enabled(self, "save-plot-dialog", session);
-  set_enabled(self, "watch", bodies);
-  update_study(self, bodies);
 }

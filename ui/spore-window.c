@@ -176,6 +176,8 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_label);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, menu);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, speeds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, instrument_kinds);
 }
@@ -207,6 +209,7 @@ static void spore_window_init(SporeWindow *self) {
   self->fresh = TRUE;
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));
+  spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
   spore_window_add_film_actions(self);
   spore_window_add_mesh_actions(self);

@@ -31,9 +31,9 @@
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
- *               show-inspector, show-problems (state), filter, measure [s "distance", "angle" or "volume"],
+ *               show-inspector, show-problems, present (state), filter, measure [s "distance", "angle" or "volume"],
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
- *   others      report [s message]
+ *   others      search (for any of these), report [s message]
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

@@ -2075,6 +2075,51 @@ def an_instrument_by_the_keyboard():
 
 
 @check
+def search_for_a_command():
+    """Ctrl+K finds every command by words of its label, with its key; Enter runs it; what cannot be done is listed last and says why; all by the keyboard."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("select", "s", "solver")
+
+        def search(words):
+            editor.focus()
+            editor.keys("ctrl+k")
+            editor.find("dialog", "^Search for a command$")
+            every = [editor.name_of(node) for node in editor.nodes("list item", showing=False)]
+            editor.focus()
+            editor.mouse("type", words)
+            ui.wait(lambda: editor.text_of(editor.find("text", "^What to do$")) == words, "the words to be typed")
+            return every
+
+        def is_open():
+            return editor.look("dialog", "^Search for a command$")
+
+        every = search("collision spheres")
+        assert len(every) == len(set(every)) > 90 and not [name for name in every if re.match(r"(win|app)\.", name)], every
+        can, cannot = "View: From above", "Delete: select something first that has a name, in the outliner or in the view"
+        assert every.index(can) < every.index(cannot) and "Undo" in every, every
+        assert {"Add instrument: Grasper: holds tissue while it is closed", "Add link: Hinge", "View: From above", "Speed: Real time"} <= set(every), every
+        editor.keys("Return")
+        ui.wait(lambda: editor.state("show-spheres") and not is_open(), "the command to be run")
+        search("redo")
+        row = editor.find("list item", "^Redo: there is nothing to redo$")
+        assert "Shift+Ctrl+Z" in [editor.name_of(node) or "" for node in editor.walk(row)]
+        editor.keys("Return")
+        assert is_open(), "what cannot be done is not run"
+        editor.keys("Escape")
+        ui.wait(lambda: not is_open(), "Escape to close it")
+        search("tool edit")
+        first = editor.state("tool")
+        editor.keys("ctrl+a")
+        editor.mouse("type", "tool:")
+        ui.wait(lambda: len(editor.nodes("list item")) == 3, "the three tools")
+        editor.keys("Down", "Return")
+        ui.wait(lambda: editor.state("tool") == "probe" != first, "the second one to be run")
+        search("no such thing")
+        editor.find("label", "^No command has these words$")
+
+
+@check
 def which_instrument_is_led():
     """the view and the corner name the instrument that is led; N and P and the list change it; what is selected beside it does not."""
     scene = two_balls("hands")

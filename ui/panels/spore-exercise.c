@@ -361,6 +361,14 @@ static void fill_menu(GtkWidget *button, const char *action, const char *label, 
   g_menu_append_item(menu, item);
 }
 
+GMenuModel *spore_exercise_panel_get_step_menu(SporeExercisePanel *self) {
+  return gtk_menu_button_get_menu_model(GTK_MENU_BUTTON(self->add_step));
+}
+
+GMenuModel *spore_exercise_panel_get_metric_menu(SporeExercisePanel *self) {
+  return gtk_menu_button_get_menu_model(GTK_MENU_BUTTON(self->add_metric));
+}
+
 static void fill_menus(SporeExercisePanel *self) {
   for (const SporeEventKind *const *kind = spore_event_kinds; *kind; kind++)
     fill_menu(self->add_step, "win.add-step", (*kind)->label, (*kind)->element);

@@ -13,6 +13,9 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeExercisePanel, spore_exercise_panel, SPORE, EXERCISE_PANEL, GtkBox)
 
 void spore_exercise_panel_set_document(SporeExercisePanel *self, SporeEditorDocument *document, SporePlayer *player);
+/* The kinds of steps and of metrics that can be added, as menus. Borrowed. */
+GMenuModel *spore_exercise_panel_get_step_menu(SporeExercisePanel *self);
+GMenuModel *spore_exercise_panel_get_metric_menu(SporeExercisePanel *self);
 /* A try-out: the run goes on from that step. NULL, or a step that the run does not have: nothing happens. */
 void spore_exercise_panel_skip(SporeExercisePanel *self, const SporeObject *step);
 /* Writes the report of the run so far, of the kind that the file's name says. FALSE with a GError: no run, no exercise,

@@ -228,6 +228,35 @@ static gboolean has_whole_screen(GtkWidget *area) {
   return window && gdk_window_get_state(window) & GDK_WINDOW_STATE_FULLSCREEN;
 }
 
+/* Keys of the view that are actions of the window. */
+static const struct {
+  guint key;
+  const char *action; /* detailed */
+} keys[] = {
+    {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},        {GDK_KEY_i, "win.isolate"},
+    {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},       {GDK_KEY_0, "win.view::camera"},
+    {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"}, {GDK_KEY_7, "win.view::top"},
+};
+
+guint spore_viewport_key_of(const char *action) {
+  for (gsize i = 0; i < G_N_ELEMENTS(keys); i++)
+    if (g_str_equal(keys[i].action, action)) return keys[i].key;
+  return 0;
+}
+
+/* FALSE: not its key. Digits of the keypad do the same as the others. */
+static gboolean act_on(GtkWidget *area, guint key) {
+  if (key >= GDK_KEY_KP_0 && key <= GDK_KEY_KP_9) key = GDK_KEY_0 + key - GDK_KEY_KP_0;
+  for (gsize i = 0; i < G_N_ELEMENTS(keys); i++) {
+    g_autofree char *action = NULL;
+    g_autoptr(GVariant) target = NULL;
+    if (keys[i].key != key || !g_action_parse_detailed_name(keys[i].action, &action, &target, NULL)) continue;
+    spore_activate(area, action + strlen("win."), target);
+    return TRUE;
+  }
+  return FALSE;
+}
+
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
   const guint modifiers = event->state & gtk_accelerator_get_default_mod_mask();
   if (modifiers == GDK_CONTROL_MASK && event->keyval == GDK_KEY_a) {
@@ -256,39 +285,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     if (!self->picking) return GDK_EVENT_PROPAGATE;
     spore_activate(area, "pick-done", NULL);
     break;
-  case GDK_KEY_m:
-    spore_activate(area, "measure", g_variant_new_string("distance"));
-    break;
-  case GDK_KEY_h:
-    spore_activate(area, "hide", NULL);
-    break;
-  case GDK_KEY_i:
-    spore_activate(area, "isolate", NULL);
-    break;
-  case GDK_KEY_a:
-    spore_activate(area, "show-all", NULL);
-    break;
-  case GDK_KEY_f:
-    spore_viewport_frame(self);
-    break;
-  case GDK_KEY_0:
-  case GDK_KEY_KP_0:
-    spore_viewport_view(self, "camera");
-    break;
-  case GDK_KEY_1:
-  case GDK_KEY_KP_1:
-    spore_viewport_view(self, "front");
-    break;
-  case GDK_KEY_3:
-  case GDK_KEY_KP_3:
-    spore_viewport_view(self, "right");
-    break;
-  case GDK_KEY_7:
-  case GDK_KEY_KP_7:
-    spore_viewport_view(self, "top");
-    break;
   default:
-    return GDK_EVENT_PROPAGATE;
+    return act_on(area, event->keyval) ? GDK_EVENT_STOP : GDK_EVENT_PROPAGATE;
   }
   return GDK_EVENT_STOP;
 }

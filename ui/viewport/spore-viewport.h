@@ -61,6 +61,8 @@ void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, gu
 /* Shows the line along which an instrument would lie; count 0: none. SPORE_OUTLINE_POINTS at most. Goes with the next
  * anchors. */
 void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, guint count);
+/* The key that does this in the view; action: detailed, "win.view::top". 0: none does. */
+guint spore_viewport_key_of(const char *action);
 /* The kinds of links, for the view's button and menu. */
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
 /* The kinds of instruments, the same, and the instruments that can be led. */

@@ -1,0 +1,234 @@
+/* What each action needs before it can be done. */
+#include <glib/gi18n.h>
+
+#include "core/author/exercise_edits.h"
+#include "core/author/soft_edits.h"
+#include "ui/document/hands.h"
+#include "ui/spore-window-private.h"
+
+/* What an action may need, as bits. */
+typedef enum Need {
+  IDLE = 1 << 0,
+  JOBLESS = 1 << 1,
+  BODIES = 1 << 2,
+  SESSION = 1 << 3,
+  STILL = 1 << 4,
+  PLAYING = 1 << 5,
+  UNDO = 1 << 6,
+  REDO = 1 << 7,
+  UNSAVED = 1 << 8,
+  NAMED = 1 << 9,
+  ALONE = 1 << 10,
+  SOFT = 1 << 11,
+  BODY = 1 << 12,
+  HIDDEN = 1 << 13,
+  LINK = 1 << 14,
+  STEP = 1 << 15,
+  PART = 1 << 16,
+  STUDY = 1 << 17,
+  POINT = 1 << 18,
+  UNMEASURED = 1 << 19,
+  PLACES = 1 << 20,
+  RESULT = 1 << 21,
+  LISTING = 1 << 22,
+  WORK = 1 << 23,
+  HANDS = 1 << 24,
+  DRAFT = 1 << 25,
+  PICKING = 1 << 26,
+  MEASURES = 1 << 27,
+} Need;
+
+/* In the order in which they are told. */
+static const struct {
+  Need need;
+  const char *missing; /* translatable */
+} missing[] = {
+    {IDLE | JOBLESS, N_("something else is being worked on; wait for it or cancel it")},
+    {BODIES, N_("the scene has no body yet; import a mesh, or open the demo")},
+    {SESSION, N_("nothing has been simulated yet; play first")},
+    {STILL, N_("the scene is playing; pause it first")},
+    {PLAYING, N_("the scene is not playing")},
+    {UNDO, N_("there is nothing to undo")},
+    {REDO, N_("there is nothing to redo")},
+    {UNSAVED, N_("everything is saved")},
+    {LINK, N_("select a link first")},
+    {STEP, N_("select a step of the exercise first")},
+    {PART, N_("select a step or a metric of the exercise first")},
+    {SOFT, N_("select an organ first that is not soft yet")},
+    {BODY, N_("select an organ first, in the outliner or in the view")},
+    {NAMED, N_("select something first that has a name, in the outliner or in the view")},
+    {ALONE, N_("select one thing alone first")},
+    {HIDDEN, N_("nothing is hidden")},
+    {MEASURES, N_("nothing is measured in the view")},
+    {UNMEASURED, N_("the accuracy is being measured")},
+    {STUDY, N_("measure the accuracy first")},
+    {POINT, N_("measure the accuracy and choose a point first")},
+    {PLACES, N_("preview a middle line or a sheet first")},
+    {RESULT, N_("preview a generator first")},
+    {LISTING, N_("open a label map first")},
+    {WORK, N_("nothing is being worked on")},
+    {DRAFT | PICKING, N_("nothing is being picked")},
+    {HANDS, N_("the scene has no instrument yet; add one")},
+};
+
+/* Those that need something. */
+static const struct {
+  const char *action;
+  guint needs;
+} needs[] = {
+    {"undo", UNDO},
+    {"redo", REDO},
+    {"save", UNSAVED},
+    {"delete", NAMED},
+    {"rename", NAMED | ALONE},
+    {"rename-dialog", NAMED | ALONE},
+    {"make-soft", IDLE | SOFT},
+    {"hide", BODY},
+    {"isolate", BODY},
+    {"show-all", HIDDEN},
+    {"measure", BODIES},
+    {"clear-measures", MEASURES},
+    {"select-organs", BODIES},
+    {"add-pin", BODIES},
+    {"add-link", BODIES},
+    {"tie-link", LINK},
+    {"lead", HANDS},
+    {"pick-back", PICKING},
+    {"pick-done", DRAFT},
+    {"add-step", BODIES},
+    {"add-metric", BODIES},
+    {"aim-step", STEP},
+    {"skip-to-step", STEP | SESSION},
+    {"move-part", PART},
+    {"remove-part", PART},
+    {"save-exercise", SESSION},
+    {"save-exercise-dialog", SESSION},
+    {"import", IDLE},
+    {"import-dialog", IDLE},
+    {"import-dialog-with", IDLE},
+    {"change-mesh", IDLE | BODIES},
+    {"change-mesh-dialog", IDLE | BODIES},
+    {"measure-mapping", IDLE | BODIES},
+    {"preview-labels", JOBLESS},
+    {"preview-labels-dialog", JOBLESS},
+    {"pick-places", PLACES},
+    {"automatic-places", PLACES},
+    {"make-labels", LISTING},
+    {"apply-generated", RESULT},
+    {"cancel-job", WORK},
+    {"play", BODIES | STILL},
+    {"pause", PLAYING},
+    {"play-pause", BODIES},
+    {"step", BODIES | STILL},
+    {"reset", SESSION},
+    {"save-recording", SESSION},
+    {"save-recording-dialog", SESSION},
+    {"save-picture", BODIES},
+    {"save-picture-dialog", BODIES},
+    {"save-film", IDLE | SESSION},
+    {"save-film-dialog", IDLE | SESSION},
+    {"repeat-attempt", BODIES},
+    {"film-attempts", IDLE},
+    {"film-attempts-dialog", IDLE},
+    {"save-numbers", SESSION},
+    {"save-numbers-dialog", SESSION},
+    {"save-plot", SESSION},
+    {"save-plot-dialog", SESSION},
+    {"watch", BODIES},
+    {"measure-accuracy", BODIES | UNMEASURED},
+    {"choose-point", STUDY},
+    {"apply-point", POINT},
+    {"save-study", STUDY},
+    {"save-study-dialog", STUDY},
+};
+
+/* What is there now. */
+
+gboolean spore_window_picks_places(SporeWindow *self) {
+  return spore_generator_get_body(self->generator) &&
+         spore_generators[spore_generator_get_options(self->generator)->kind]->places;
+}
+
+gboolean spore_window_is_picking(SporeWindow *self) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-places");
+  return g_variant_get_boolean(state);
+}
+
+static guint of_history(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  gboolean unsaved =
+      spore_editor_document_is_modified(self->document) || !spore_editor_document_get_save_file(self->document);
+  return (spore_document_can_undo(document) ? UNDO : 0) | (spore_document_can_redo(document) ? REDO : 0) |
+         (unsaved ? UNSAVED : 0);
+}
+
+static guint of_selection(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  const SporeObject *selected = spore_editor_document_selected(self->document);
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  gsize count;
+  spore_editor_document_get_selected(self->document, &count);
+  gboolean soft = FALSE, step = spore_step_is(selected);
+  for (guint i = 0; i < bodies->len; i++) soft = soft || spore_soft_may(document, bodies->pdata[i], NULL);
+  return (selected && spore_object_name(selected) ? NAMED : 0) | (count == 1 ? ALONE : 0) | (soft ? SOFT : 0) |
+         (bodies->len ? BODY : 0) | (spore_link_is(selected) ? LINK : 0) | (step ? STEP : 0) |
+         (step || spore_metric_is(selected) ? PART : 0);
+}
+
+static guint of_work(SporeWindow *self) {
+  gboolean places = spore_window_picks_places(self);
+  const void *result = spore_generator_get_result(self->generator);
+  gboolean works = self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player);
+  return (self->job ? 0 : JOBLESS) | (self->job || spore_generator_is_working(self->generator) ? 0 : IDLE) |
+         (places ? PLACES : 0) | (result ? RESULT : 0) |
+         (result && spore_generator_get_options(self->generator)->listing ? LISTING : 0) | (works ? WORK : 0);
+}
+
+static guint of_run(SporeWindow *self) {
+  gboolean playing = spore_player_is_playing(self->player);
+  return (spore_player_get_session(self->player) ? SESSION : 0) | (playing ? PLAYING : STILL);
+}
+
+static guint of_scene(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_autoptr(GPtrArray) hands = spore_hands(document);
+  gboolean measuring = spore_accuracy_is_measuring(SPORE_ACCURACY(self->accuracy));
+  return (spore_object_child_count(spore_document_section(document, "bodies")) ? BODIES : 0) |
+         (hands->len ? HANDS : 0) | (measuring ? 0 : UNMEASURED) |
+         (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
+         (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
+         (spore_editor_document_get_study(self->document) ? STUDY : 0) |
+         (spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)) ? POINT : 0) |
+         (self->draft.type                ? DRAFT | PICKING
+          : spore_window_is_picking(self) ? PICKING
+                                          : 0);
+}
+
+static guint there(SporeWindow *self) {
+  return of_history(self) | of_selection(self) | of_work(self) | of_run(self) | of_scene(self);
+}
+
+/* What generators' actions need is the same for all of them, but for label maps, which need no body. */
+static guint needs_of(const char *action) {
+  for (gsize i = 0; i < G_N_ELEMENTS(needs); i++)
+    if (g_str_equal(needs[i].action, action)) return needs[i].needs;
+  if (g_str_has_prefix(action, "generate-")) return IDLE | BODIES;
+  return g_str_has_prefix(action, "preview-") ? JOBLESS | BODIES : 0;
+}
+
+void spore_window_update_actions(SporeWindow *self) {
+  g_auto(GStrv) actions = g_action_group_list_actions(G_ACTION_GROUP(self));
+  guint now = there(self);
+  for (char **action = actions; *action; action++) {
+    GAction *found = g_action_map_lookup_action(G_ACTION_MAP(self), *action);
+    guint all = needs_of(*action);
+    if (all) g_simple_action_set_enabled(G_SIMPLE_ACTION(found), (all & ~now) == 0);
+  }
+}
+
+const char *spore_window_missing(SporeWindow *self, const char *action) {
+  guint lacks = needs_of(action) & ~there(self);
+  for (gsize i = 0; i < G_N_ELEMENTS(missing); i++)
+    if (missing[i].need & lacks) return _(missing[i].missing);
+  return NULL;
+}
