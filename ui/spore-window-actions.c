@@ -154,6 +154,7 @@ static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
   const char *name = g_variant_get_string(state, NULL);
   gboolean edit = g_str_equal(name, "edit");
   if (edit && !spore_window_may_edit(self)) return;
+  spore_window_stop_picking(self);
   spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), edit                         ? SPORE_VIEWPORT_TOOL_EDIT
                                                           : g_str_equal(name, "probe") ? SPORE_VIEWPORT_TOOL_PROBE
                                                                                        : SPORE_VIEWPORT_TOOL_SELECT);
@@ -222,8 +223,7 @@ static void act_measure(GSimpleAction *action, GVariant *parameter, gpointer dat
   SporeWindow *self = data;
   const SporeGauge *gauge = spore_gauge_find(g_variant_get_string(parameter, NULL));
   if (!gauge) return;
-  spore_window_end_pick(self);
-  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
+  spore_window_stop_picking(self);
   spore_viewport_measure(SPORE_VIEWPORT(self->viewport), gauge);
 }
 

@@ -28,6 +28,7 @@ static void update(SporeWindow *self) {
 }
 
 static void selection_changed(SporeWindow *self) {
+  spore_window_mend(self, SPORE_CAUSE_SELECTION);
   spore_window_update_actions(self);
   spore_window_show_hands(self);
 }
@@ -35,6 +36,11 @@ static void selection_changed(SporeWindow *self) {
 static void history_changed(SporeWindow *self) {
   self->fresh = FALSE;
   update(self);
+}
+
+static void scene_changed(SporeWindow *self) {
+  spore_window_mend(self, SPORE_CAUSE_EDIT);
+  history_changed(self);
 }
 
 static void player_changed(SporeWindow *self) {
@@ -45,6 +51,7 @@ static void player_changed(SporeWindow *self) {
                                GTK_ICON_SIZE_BUTTON);
   gtk_widget_set_tooltip_text(self->play_button, playing ? _("Pause (F5)") : _("Play (F5)"));
   atk_object_set_name(gtk_widget_get_accessible(self->play_button), playing ? _("Pause") : _("Play"));
+  if (spore_window_is_at_start(self)) spore_window_mend(self, SPORE_CAUSE_RUN);
   update(self);
 }
 
@@ -77,7 +84,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   g_autoptr(GVariant) speed = g_action_group_get_action_state(G_ACTION_GROUP(self), "speed");
   spore_player_set_speed(self->player, g_ascii_strtod(g_variant_get_string(speed, NULL), NULL));
   g_signal_connect_object(self->document, "history-changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
-  g_signal_connect_object(self->document, "changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->document, "changed", G_CALLBACK(scene_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "progressed", G_CALLBACK(spore_window_show_job), self, G_CONNECT_SWAPPED);

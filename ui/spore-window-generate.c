@@ -27,7 +27,7 @@ typedef struct {
 static void preview(SporeWindow *self, SporeObject *body, const SporeGenerateOptions *options, gboolean apply) {
   g_autoptr(GError) error = NULL;
   if (self->job) {
-    spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
+    spore_window_complain_work(self);
     return;
   }
   if (!spore_generator_is_active(self->generator)) spore_recovery_keep(self->recovery, self->document, NULL);
@@ -191,9 +191,10 @@ static void act_automatic_places(GSimpleAction *action, GVariant *parameter, gpo
 static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   SporeObject *body = spore_generator_get_body(self->generator);
   if (!spore_window_is_picking(self) || !body || !id) return;
+  spore_window_mend(self, SPORE_CAUSE_PICK);
   if (spore_object_id(body) != id) {
     g_autofree char *text = g_strdup_printf(_("That is another organ; click on “%s”"), spore_object_name(body));
-    spore_window_complain(self, text);
+    spore_window_complain_while(self, SPORE_CAUSE_PICK, text, NULL, NULL);
     return;
   }
   SporeViewportPlaces all = self->picked;
@@ -316,6 +317,7 @@ static void changed(SporeWindow *self) {
   show_places(self);
   if (!shows_look_already(self)) show_candidate(self);
   spore_window_show_job(self);
+  if (!self->job && !spore_generator_is_working(self->generator)) spore_window_mend(self, SPORE_CAUSE_WORK);
   spore_window_update_actions(self);
 }
 

@@ -16,14 +16,21 @@ static void show_draft(SporeWindow *self) {
 
 void spore_window_end_pick(SporeWindow *self) {
   if (!self->draft.type) return;
+  spore_window_mend(self, SPORE_CAUSE_PICK);
   self->draft = (SporePickDraft){0};
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), FALSE);
   show_draft(self);
 }
 
+void spore_window_stop_picking(SporeWindow *self) {
+  spore_window_end_pick(self);
+  if (spore_window_is_picking(self))
+    g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
+}
+
 void spore_window_begin_pick(SporeWindow *self, SporePickDraft draft) {
   if (!spore_window_may_edit(self)) return;
-  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
+  spore_window_stop_picking(self);
   self->draft = draft;
   if (!draft.name) self->draft.name = draft.type->element;
   if (!draft.label) self->draft.label = draft.type->label;
@@ -54,7 +61,8 @@ static void finish(SporeWindow *self) {
   }
   if (!object) object = draft.kind->add(document_of(self), draft.name, ends, draft.count, &error);
   else if (!draft.kind->tie(document_of(self), object, ends, draft.count, &error)) object = NULL;
-  if (spore_window_failed(self, error)) {
+  if (error) {
+    spore_window_complain_while(self, SPORE_CAUSE_PICK, error->message, NULL, NULL);
     if (self->draft.count) self->draft.count--; /* another click may mend it */
     show_draft(self);
     return;
@@ -67,6 +75,7 @@ static void finish(SporeWindow *self) {
 static void picked(SporeWindow *self, guint body, const SporeVec3 *place) {
   SporePickDraft *draft = &self->draft;
   if (!draft->type || !spore_window_may_edit(self)) return;
+  spore_window_mend(self, SPORE_CAUSE_PICK);
   draft->bodies[draft->count] = body;
   draft->places[draft->count++] = *place;
   if (!body && draft->count == 1 && !draft->kind->anywhere) finish(self); /* which says what is wrong with it */
@@ -95,6 +104,7 @@ static void act_pick_back(GSimpleAction *action, GVariant *parameter, gpointer d
   if (!self->draft.type) {
     g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-places", g_variant_new_boolean(FALSE));
   } else if (self->draft.count) {
+    spore_window_mend(self, SPORE_CAUSE_PICK);
     self->draft.count--;
     show_draft(self);
   } else {

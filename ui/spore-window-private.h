@@ -47,10 +47,21 @@ typedef struct SporePickDraft {
   SporeVec3 places[2];         /* in the scene, m */
 } SporePickDraft;
 
+/* What a message is about; a message goes when that is over. */
+typedef enum SporeCause {
+  SPORE_CAUSE_LASTS = 0,          /* goes when the user closes it, or with the document */
+  SPORE_CAUSE_EDIT = 1 << 0,      /* an edit was refused: until the scene is changed */
+  SPORE_CAUSE_RUN = 1 << 1,       /* the scene is not at its start */
+  SPORE_CAUSE_WORK = 1 << 2,      /* something is being worked on */
+  SPORE_CAUSE_SELECTION = 1 << 3, /* nothing fit is selected: until something else is */
+  SPORE_CAUSE_PICK = 1 << 4,      /* a click was refused: until the next one */
+} SporeCause;
+
 struct _SporeWindow {
   GtkApplicationWindow parent;
-  GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text,
-      *hold_bar, *hold_text, *hold_button;
+  GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *message_remedy, *recovery_bar,
+      *recovery_text, *hold_bar, *hold_text, *hold_button;
+  SporeCause cause; /* of the message that is shown */
   GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *exercise, *generator_panel, *middle,
       *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar;
 
@@ -88,6 +99,13 @@ const char *spore_window_missing(SporeWindow *self, const char *action);
 
 /* spore-window-state.c: messages, the job that runs, enabled actions. */
 void spore_window_complain(SporeWindow *self, const char *message);
+/* A message that goes with its cause. remedy: label of a button for the action of the window; both NULL: none. */
+void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
+                                 const char *action);
+/* Something else is being worked on. */
+void spore_window_complain_work(SporeWindow *self);
+/* What is over, of SporeCause: a message about that goes. */
+void spore_window_mend(SporeWindow *self, guint causes);
 void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(2, 3);
 /* Brings what lies in one of the bottom's tabs to the front. */
 void spore_window_show_tab(SporeWindow *self, GtkWidget *what);
@@ -100,6 +118,7 @@ gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWo
 void spore_window_show_job(SporeWindow *self);
 /* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
 SporeObject *spore_window_body_to_work_on(SporeWindow *self);
+gboolean spore_window_is_at_start(SporeWindow *self);
 /* Editing in the view works on the scene at its start. FALSE: the user is told. */
 gboolean spore_window_may_edit(SporeWindow *self);
 void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
@@ -115,6 +134,8 @@ void spore_window_add_pick_actions(SporeWindow *self);
 void spore_window_begin_pick(SporeWindow *self, SporePickDraft draft);
 /* Forgets what is being picked, if anything is. */
 void spore_window_end_pick(SporeWindow *self);
+/* The same, also of the places on the organ that a generator begins from. */
+void spore_window_stop_picking(SporeWindow *self);
 
 /* spore-window-links.c: links. */
 void spore_window_add_link_actions(SporeWindow *self);

@@ -31,14 +31,29 @@ void spore_window_show_tab(SporeWindow *self, GtkWidget *what) {
   gtk_stack_set_visible_child(GTK_STACK(self->tabs), what);
 }
 
-void spore_window_complain(SporeWindow *self, const char *message) {
+void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
+                                 const char *action) {
+  self->cause = cause;
   gtk_label_set_text(GTK_LABEL(self->message), message);
+  gtk_widget_set_visible(self->message_remedy, remedy != NULL);
+  if (remedy) gtk_button_set_label(GTK_BUTTON(self->message_remedy), remedy);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(self->message_remedy), action);
   gtk_widget_show(self->message_bar);
   spore_window_log(self, "%s", message);
 }
 
+void spore_window_complain(SporeWindow *self, const char *message) {
+  spore_window_complain_while(self, SPORE_CAUSE_LASTS, message, NULL, NULL);
+}
+
+void spore_window_mend(SporeWindow *self, guint causes) {
+  if (self->cause & causes) gtk_widget_hide(self->message_bar);
+}
+
 gboolean spore_window_failed(SporeWindow *self, const GError *error) {
-  if (error && !g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED)) spore_window_complain(self, error->message);
+  gboolean refused = g_error_matches(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  if (error && !g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED))
+    spore_window_complain_while(self, refused ? SPORE_CAUSE_EDIT : SPORE_CAUSE_LASTS, error->message, NULL, NULL);
   return error != NULL;
 }
 
@@ -67,14 +82,21 @@ void spore_window_show_job(SporeWindow *self) {
 static void job_finished(SporeJob *job, SporeWindow *self) {
   if (self->job != job) return;
   g_clear_object(&self->job);
+  spore_window_mend(self, SPORE_CAUSE_WORK);
   spore_window_show_job(self);
   spore_window_update_actions(self);
+}
+
+void spore_window_complain_work(SporeWindow *self) {
+  spore_window_complain_while(self, SPORE_CAUSE_WORK,
+                              _("Something else is still being worked on; wait for it or cancel it"), _("Cancel it"),
+                              "win.cancel-job");
 }
 
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done) {
   if (self->job || spore_generator_is_working(self->generator)) {
-    spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
+    spore_window_complain_work(self);
     free_data(data);
     return FALSE;
   }
@@ -103,14 +125,22 @@ SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
     }
     only = body;
   }
-  if (!only) spore_window_complain(self, _("Select the organ first, in the outliner or in the viewport"));
+  if (!only)
+    spore_window_complain_while(self, SPORE_CAUSE_SELECTION,
+                                _("Select the organ first, in the outliner or in the viewport"), NULL, NULL);
   return only;
 }
 
-gboolean spore_window_may_edit(SporeWindow *self) {
+gboolean spore_window_is_at_start(SporeWindow *self) {
   SporeSession *session = spore_player_get_session(self->player);
-  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
-  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
+  return !session || spore_session_snapshot(session)->time_s == 0;
+}
+
+gboolean spore_window_may_edit(SporeWindow *self) {
+  if (spore_window_is_at_start(self)) return TRUE;
+  spore_window_complain_while(self, SPORE_CAUSE_RUN,
+                              _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"),
+                              _("Back to the start"), "win.reset");
   return FALSE;
 }
 

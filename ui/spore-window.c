@@ -153,6 +153,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, speed_button);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, message_remedy);
   gtk_widget_class_bind_template_child(widget, SporeWindow, recovery_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hold_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hold_text);

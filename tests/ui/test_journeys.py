@@ -1834,7 +1834,7 @@ def on_balls(editor):
     editor.act("view", "s", "front")
     x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
     middle = (x + width // 2, y + height // 2)
-    return (middle[0] - height // 5, middle[1]), (middle[0] + height // 5, middle[1]), (middle[0], middle[1] - height * 3 // 10)
+    return (middle[0] - height // 5, middle[1]), (middle[0] + height // 5, middle[1]), (middle[0], middle[1] - height // 5)
 
 
 def link_in(editor, element, name):
@@ -2120,6 +2120,46 @@ def search_for_a_command():
 
 
 @check
+def messages_go_with_their_cause():
+    """a message goes when what it is about is over, and offers the remedy; one tool is lit, also when another is refused, and none while something is picked."""
+    with start(two_balls("messages")) as editor:
+        left, right, above = on_balls(editor)
+
+        def lit():
+            states = editor.atspi.StateType
+            return [name for name in ("Select", "Lead", "Edit") if
+                    any(editor.find("toggle button", f"^{name}$").get_state_set().contains(state) for state in (states.CHECKED, states.PRESSED))]
+
+        editor.press(editor.find("toggle button", "^Select$"))
+        assert lit() == ["Select"], "a press on the lit tool leaves it lit"
+        editor.act("step")
+        ui.wait(lambda: (editor.time_s() or 0) > 0, "a step")
+        editor.press(editor.find("toggle button", "^Edit$"))
+        ui.wait(lambda: "needs the scene at its start" in (editor.message() or ""), "the refusal")
+        assert lit() == ["Select"], "a refused tool is not lit"
+        editor.press(editor.find("push button", "^Back to the start$"))
+        ui.wait(lambda: editor.time_s() == 0 and not editor.message(), "the message to go with its cause")
+        editor.act("set-property", "(sss)", ("bodies/left/visual", "wetness", "7"))
+        ui.wait(lambda: "wetness" in (editor.message() or ""), "a refused value")
+        assert not editor.look("push button", "^Back to the start$"), "there is no button for that"
+        editor.act("select", "s", "bodies/left")
+        assert editor.message(), "the value is as bad as before"
+        editor.act("set-property", "(sss)", ("bodies/left/visual", "wetness", "0.7"))
+        ui.wait(lambda: not editor.message(), "the message to go with a better value")
+        editor.act("add-link", "s", "spring")
+        editor.find("label", ", click 1 of 2: ")
+        assert lit() == []
+        editor.mouse("mousemove", *above, "click", 1)
+        ui.wait(lambda: "click on a body first" in (editor.message() or ""), "the refusal of the scene alone")
+        editor.mouse("mousemove", *left, "click", 1)
+        editor.find("label", ", click 2 of 2: ")
+        ui.wait(lambda: not editor.message(), "the message to go with a better click")
+        editor.press(editor.find("toggle button", "^Lead$"))
+        ui.wait(lambda: not editor.look("label", ", click 2 of 2: "), "the tool to end the picking")
+        assert lit() == ["Lead"] and editor.state("tool") == "probe" and not editor.row("left_spring")
+
+
+@check
 def which_instrument_is_led():
     """the view and the corner name the instrument that is led; N and P and the list change it; what is selected beside it does not."""
     scene = two_balls("hands")
@@ -2199,6 +2239,10 @@ def links_are_tied_elsewhere():
         editor.find("label", ", click 2 of 2: ")
         editor.mouse("mousemove", *left, "click", 1)
         ui.wait(lambda: "both ends are of one body" in (editor.message() or ""), "the refusal of one body")
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.message(), "the refusal to go with the click")
+        editor.mouse("mousemove", *left, "click", 1)
+        editor.find("label", ", click 2 of 2: ")
         editor.mouse("mousemove", *above, "click", 1)
         ui.wait(lambda: editor.row("left_spring"), "the spring")
         link = link_in(editor, "spring", "scene_end")

@@ -258,10 +258,31 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
   spore_viewport_show_welcome(self);
 }
 
+static void tool_clicked(GtkWidget *button, SporeViewport *self);
+
+/* The tool that is used is lit, and no other; none while something is picked or measured. */
+static void light_tool(SporeViewport *self) {
+  GtkWidget *const buttons[] = {self->select_tool, self->lead_tool, self->edit_tool};
+  gboolean picks = self->picking || spore_viewport_measures_now(self);
+  for (guint i = 0; i < G_N_ELEMENTS(buttons); i++) {
+    g_signal_handlers_block_by_func(buttons[i], tool_clicked, self);
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(buttons[i]), !picks && i == (guint)self->tool);
+    g_signal_handlers_unblock_by_func(buttons[i], tool_clicked, self);
+  }
+}
+
+/* The window may refuse the tool; and a click on what is lit does not turn it off. */
+static void tool_clicked(GtkWidget *button, SporeViewport *self) {
+  const char *tool = button == self->select_tool ? "select" : button == self->lead_tool ? "probe" : "edit";
+  spore_activate(self->area, "tool", g_variant_new_string(tool));
+  light_tool(self);
+}
+
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
   spore_viewport_end_drag(self);
   if (picking) spore_viewport_end_measuring(self);
   self->picking = picking;
+  light_tool(self);
   spore_viewport_set_anchors(self, NULL, 0);
   if (picking) gtk_widget_grab_focus(self->area); /* whose keys pick, too */
 }
@@ -269,7 +290,9 @@ void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool) {
   spore_viewport_end_drag(self);
   spore_viewport_edit_end(self);
+  spore_viewport_end_measuring(self);
   self->tool = tool;
+  light_tool(self);
   self->regions = 0;
   spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
@@ -339,6 +362,9 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tool_row);
   gtk_widget_class_bind_template_child(widget, SporeViewport, look_row);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, select_tool);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, lead_tool);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, edit_tool);
   gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_list);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
@@ -352,6 +378,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_cut_moved);
+  gtk_widget_class_bind_template_callback(widget, tool_clicked);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_press);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_button_release);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_motion);
@@ -370,4 +397,6 @@ static void spore_viewport_init(SporeViewport *self) {
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_ignore_wheel(self->cut_slider);
   spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
+  g_signal_connect(self, "measuring", G_CALLBACK(light_tool), NULL);
+  light_tool(self);
 }
