@@ -52,6 +52,9 @@ static const ExportFormat formats[] = {
     {"stl", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh"), spore_export_stl},
     {"mjcf", EXPORT_ONE_MOMENT, N_("rigid bodies at a moment for MuJoCo 2.2: spheres, masses, springs, ball joints"),
      spore_export_mjcf},
+    {"sofa", EXPORT_NO_MOMENT,
+     N_("the start of the scene for SOFA (.scn): rigid bodies, tetrahedra and springs, with masses, spheres and pins"),
+     spore_export_sofa},
 };
 
 static gboolean export_scene(SporeExport *export, const char *scene, const SporeSceneOptions *options,

@@ -53,6 +53,15 @@ void spore_export_lose_sections(SporeExport *export, gboolean links);
 /* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */
 void spore_export_lose_physics(SporeExport *export, gboolean colours);
 
+/* For formats of XML that hold bodies. */
+
+/* Appends NAME="number number ...", after a space. */
+void spore_export_attribute(GString *text, const char *name, const double *values, gsize count);
+/* Where points (count x 3, m, in the body's frame at rest) lie in what carries the body now: its own frame, where it is
+ * rigid and moves, else the world. *places: count x 3, g_free. */
+gboolean spore_export_place(const SporeWorld *world, guint body, const double *points, gsize count, double **places,
+                            GError **error);
+
 /* Says that there is nothing to write. Returns FALSE. */
 gboolean spore_export_refuse_empty(const SporeExport *export, GError **error);
 
@@ -64,6 +73,7 @@ gboolean spore_export_gltf(SporeExport *export, GError **error);
 gboolean spore_export_mjcf(SporeExport *export, GError **error);
 gboolean spore_export_obj(SporeExport *export, GError **error);
 gboolean spore_export_ply(SporeExport *export, GError **error);
+gboolean spore_export_sofa(SporeExport *export, GError **error);
 gboolean spore_export_stl(SporeExport *export, GError **error);
 gboolean spore_export_vtk(SporeExport *export, GError **error);
 

@@ -31,17 +31,8 @@ static const SporeObject *object_of(const Model *model, guint body) {
   return spore_document_by_id(model->export->document, model->simulation->body_object[body]);
 }
 
-static void append_attribute(GString *text, const char *name, const double *values, guint count) {
-  g_string_append_printf(text, " %s=\"", name);
-  for (guint i = 0; i < count; i++) {
-    char number[G_ASCII_DTOSTR_BUF_SIZE];
-    g_string_append_printf(text, "%s%s", i ? " " : "", g_ascii_formatd(number, sizeof number, "%.12g", values[i]));
-  }
-  g_string_append_c(text, '"');
-}
-
 static void append_vector(GString *text, const char *name, SporeVec3 v) {
-  append_attribute(text, name, (const double[]){v.x, v.y, v.z}, 3);
+  spore_export_attribute(text, name, (const double[]){v.x, v.y, v.z}, 3);
 }
 
 /* Bodies. */
@@ -54,32 +45,20 @@ static Fate fate_of(const SporeWorld *world, guint body) {
   return model && spore_model_is_rigid(model) ? FATE_FREE : FATE_LOST;
 }
 
-/* Places in the element of a body, from places in the body's frame at rest. *places: count x 3, g_free. */
-static gboolean place_inside(const Model *model, guint body, const double *points, gsize count, double **places,
-                             GError **error) {
-  SporeMapping mapping;
-  SporeError fault = SPORE_ERROR_INIT;
-  if (!spore_world_map(model->simulation->world, body, points, count, &mapping, &fault))
-    return spore_error_propagate(&fault, error);
-  *places = g_memdup2(mapping.points, 3 * count * sizeof *points);
-  spore_mapping_clear(&mapping);
-  return TRUE;
-}
-
 static gboolean add_spheres(Model *model, guint body, const SporeSphereSet *set, double friction,
                             const double colour[3], GError **error) {
   g_autofree double *centres = g_new(double, 3 * set->count), *radii = g_new(double, set->count), *places = NULL;
   for (gsize i = 0; i < set->count; i++) memcpy(centres + 3 * i, set->spheres + 4 * i, 3 * sizeof *centres);
   spore_spheres_radii(set, radii, 1);
-  if (!place_inside(model, body, centres, set->count, &places, error)) return FALSE;
+  if (!spore_export_place(model->simulation->world, body, centres, set->count, &places, error)) return FALSE;
   if (model->fates[body] == FATE_FREE) model->free_spheres += set->count;
   for (gsize i = 0; i < set->count; i++) {
     GString *text = model->inside[body];
     g_string_append(text, "<geom");
-    append_attribute(text, "pos", places + 3 * i, 3);
-    append_attribute(text, "size", radii + i, 1);
-    append_attribute(text, "friction", (const double[]){friction, 0.005, 0.0001}, 3);
-    append_attribute(text, "rgba", (const double[]){colour[0], colour[1], colour[2], 1}, 4);
+    spore_export_attribute(text, "pos", places + 3 * i, 3);
+    spore_export_attribute(text, "size", radii + i, 1);
+    spore_export_attribute(text, "friction", (const double[]){friction, 0.005, 0.0001}, 3);
+    spore_export_attribute(text, "rgba", (const double[]){colour[0], colour[1], colour[2], 1}, 4);
     g_string_append(text, "/>\n");
   }
   return TRUE;
@@ -108,8 +87,8 @@ static void add_inertia(Model *model, guint body, const double *q) {
       spore_mat3_multiply(spore_mat3_transpose(turn), spore_mat3_multiply(rigid->type->inertia(rigid, q), turn)).m;
   GString *text = model->inside[body];
   g_string_append(text, "<freejoint/>\n<inertial pos=\"0 0 0\"");
-  append_attribute(text, "mass", &mass, 1);
-  append_attribute(text, "fullinertia", (const double[]){i[0], i[4], i[8], i[1], i[2], i[5]}, 6);
+  spore_export_attribute(text, "mass", &mass, 1);
+  spore_export_attribute(text, "fullinertia", (const double[]){i[0], i[4], i[8], i[1], i[2], i[5]}, 6);
   g_string_append(text, "/>\n");
 }
 
@@ -136,7 +115,7 @@ static gboolean add_site(Model *model, guint body, SporeVec3 point, guint *site,
     g_autofree double *place = NULL;
     SporePose start = spore_world_start_pose(model->simulation->world, body);
     spore_vec3_store(at, spore_pose_apply_inverse(start, point));
-    if (!place_inside(model, body, at, 1, &place, error)) return FALSE;
+    if (!spore_export_place(model->simulation->world, body, at, 1, &place, error)) return FALSE;
     *inside = spore_vec3_load(place);
   }
   GString *text = body == SPORE_NO_BODY ? model->world : model->inside[body];
@@ -155,9 +134,9 @@ static gboolean add_spring(Model *model, const SporeLinkDescription *link, GErro
     return FALSE;
   double length = link->rest_length < 0 ? spore_vec3_distance(link->point_a, link->point_b) : link->rest_length;
   g_string_append_printf(model->tendons, "<spatial name=\"%s\"", link->name);
-  append_attribute(model->tendons, "springlength", &length, 1);
-  append_attribute(model->tendons, "stiffness", &link->stiffness, 1);
-  append_attribute(model->tendons, "damping", &link->damping, 1);
+  spore_export_attribute(model->tendons, "springlength", &length, 1);
+  spore_export_attribute(model->tendons, "stiffness", &link->stiffness, 1);
+  spore_export_attribute(model->tendons, "damping", &link->damping, 1);
   g_string_append_printf(model->tendons, "><site site=\"site%u\"/><site site=\"site%u\"/></spatial>\n", a, b);
   return TRUE;
 }
@@ -203,8 +182,8 @@ static void write_body(const Model *model, guint body, GString *text) {
   if (model->fates[body] == FATE_LOST) return;
   g_string_append_printf(text, "<body name=\"%s\"", spore_world_body_name(world, body));
   if (model->fates[body] != FATE_STILL) {
-    append_attribute(text, "pos", q, 3);
-    append_attribute(text, "quat", q + 3, 4);
+    spore_export_attribute(text, "pos", q, 3);
+    spore_export_attribute(text, "quat", q + 3, 4);
   }
   if (model->fates[body] == FATE_LED) g_string_append(text, " mocap=\"true\"");
   g_string_append_printf(text, ">\n%s</body>\n", model->inside[body]->str);
@@ -224,8 +203,8 @@ static GString *write_model(const Model *model) {
   spore_object_fields(spore_document_section(document, "environment"), &environment);
   GString *text =
       g_string_new("<mujoco model=\"spore\">\n<!-- SPORE: m, kg, s -->\n<compiler angle=\"radian\"/>\n<option");
-  append_attribute(text, "timestep", &dt_s, 1);
-  append_attribute(text, "gravity", environment.gravity, 3);
+  spore_export_attribute(text, "timestep", &dt_s, 1);
+  spore_export_attribute(text, "gravity", environment.gravity, 3);
   g_string_append(text, "/>\n");
   write_sizes(model, text);
   g_string_append(text, "<default><geom type=\"sphere\"/></default>\n<worldbody>\n");

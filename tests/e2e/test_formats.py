@@ -14,6 +14,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+from xml.etree import ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import vtk_files
@@ -484,6 +485,73 @@ def mujoco_runs_rigid_bodies(*_):
         moved, apart = math.dist(here, theirs["position"]), math.dist(here, there)
         print(f"# {scene} {seconds} s: moved {moved:.3g} m, MuJoCo {apart:.3g} m from there")
         assert moved > 1e-3 and apart < share * moved, (scene, here, there)
+
+
+def numbers(element, name):
+    return [float(word) for word in element.get(name).split()]
+
+
+def sofa(scene, *options):
+    """The nodes of a SOFA file by names, and the report."""
+    report = export(scene, "sofa", FOLDER / "scene.scn", *options)
+    root = ElementTree.parse(FOLDER / "scene.scn").getroot()
+    assert root.tag == "Node" and all(node.get("name") for node in root.iter("Node"))
+    return root, {node.get("name"): node for node in root.findall("Node")}, report["lost"]
+
+
+@check
+def sofa_has_the_masses_and_stiffnesses_of_the_scene(*_):
+    """SOFA: rigid bodies, tetrahedra and springs have the places, masses, moduli, springs and pins that the scene says"""
+    root, bodies, _ = sofa("plate1-ovary")
+    export("plate1-ovary", "obj", FOLDER / "model.obj")
+    mass, centre, trace = solid_moments(*obj_objects(FOLDER / "model.obj")[0]["ovary_right"], 1060)
+    written = numbers(bodies["ovary_right"].find("UniformMass"), "vertexMass")
+    assert numbers(root, "gravity") == [0, -9.81, 0] and numbers(root, "dt") == [0.004]
+    assert abs(written[0] - mass) < 1e-6 * mass and abs(mass * (written[2] + written[6] + written[10]) - trace) < 1e-5 * trace
+    assert math.dist(numbers(bodies["ovary_right"].find("MechanicalObject"), "position")[:3], centre) < 1e-7
+    assert len(numbers(bodies["ovary_right"].find("Node/SphereCollisionModel"), "listRadius")) * 3 == \
+        len(numbers(bodies["ovary_right"].find("Node/MechanicalObject"), "position"))
+
+    _, bodies, lost = sofa("exercise-clip-and-cut")
+    tube = bodies["tube"]
+    places, cells = numbers(tube.find("TetrahedronSetTopologyContainer"), "position"), tube.find("TetrahedronSetTopologyContainer").get("tetrahedra").split()
+    points = list(zip(*[iter(places)] * 3))
+    filled = sum(determinant(*[points[int(i)] for i in cells[k:k + 4]]) for k in range(0, len(cells), 4)) / 6
+    assert abs(sum(numbers(tube.find("DiagonalMass"), "vertexMass")) - 1060 * filled) < 1e-6 * 1060 * filled
+    assert places == numbers(tube.find("MechanicalObject"), "position") == numbers(tube.find("MechanicalObject"), "rest_position")
+    shear, pressure = numbers(tube.find("TetrahedronHyperelasticityFEMForceField"), "ParameterSet")
+    assert abs(shear * (3 * pressure + 2 * shear) / (pressure + shear) - 150000) < 1e-3 and numbers(tube.find("EulerImplicitSolver"), "rayleighStiffness") == [0.01]
+    held = {int(word) for word in tube.find("FixedProjectiveConstraint").get("indices").split()}
+    assert held == {i for i, p in enumerate(points) if min(math.dist(p, (x, 0, 0)) for x in (-0.036, 0.036)) <= 0.005} and held
+    assert any(word.startswith("scissors:") for word in lost) and not any("tube" in word for word in lost)
+
+    _, bodies, lost = sofa("bag")
+    net = bodies["bag"]
+    points = list(zip(*[iter(numbers(net.find("TriangleSetTopologyContainer"), "position"))] * 3))
+    triangles = list(zip(*[iter(map(int, net.find("TriangleSetTopologyContainer").get("triangles").split()))] * 3))
+    total = 0.24 * area(points, triangles)
+    assert abs(sum(numbers(net.find("DiagonalMass"), "vertexMass")) - total) < 1e-6 * total
+    fields = [list(zip(*[iter(field.get("spring").split())] * 5)) for field in net.findall("StiffSpringForceField")]
+    assert [{(float(spring[2]), float(spring[3])) for spring in field} for field in fields] == [{(200, 0.03)}, {(60, 0.03)}, {(0.5, 0.03)}]
+    edges = {tuple(sorted(pair)) for t in triangles for pair in zip(t, t[1:] + t[:1])}
+    assert {(int(spring[0]), int(spring[1])) for spring in fields[0]} == edges
+    assert all(abs(math.dist(points[int(a)], points[int(b)]) - float(length)) < 1e-9 for a, b, _, _, length in fields[0])
+    assert any(word.startswith("draw_string:") for word in lost) and any("links" in word for word in lost)
+
+
+@check
+def sofa_holds_or_names_every_body(*_):
+    """SOFA: of scenes with every kind of body, each body is in the file or said to be lost"""
+    known = set()
+    for path in (SCENES / f"{name}.spore" for name in ("laparoscopy", "bag", "plate1-ovary", "exercise-clip-and-cut", "finite-differences", "plate7-steam")):
+        root, bodies, lost = sofa(path.stem)
+        names = re.findall(r'<body name="(\w+)"', path.read_text())
+        gone = {word.split(":")[0] for word in lost if "no such body" in word}
+        assert bodies.keys() == set(names) - gone and gone <= set(names), path
+        known.update(element.tag for element in root.iter())
+    assert known >= {"UniformMass", "DiagonalMass", "TetrahedronHyperelasticityFEMForceField", "StiffSpringForceField", "SphereCollisionModel", "RigidMapping"}
+    refused = run(SPORE, "export", SCENES / "minimal.spore", "--format", "sofa", "-o", FOLDER / "no.scn", "--time", "1", status=2)
+    assert "--time" in refused and not (FOLDER / "no.scn").exists()
 
 
 @check
