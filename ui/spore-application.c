@@ -37,6 +37,7 @@ static const struct {
     {"win.pick-places", {"<Control>e"}},
     {"win.filter", {"<Control>f"}},
     {"win.search", {"<Control>k"}},
+    {"win.open-menu", {"F10"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},
 };

@@ -1,4 +1,5 @@
-/* The search for all that the window and the program can do: what is in menus, and what is behind buttons and keys. */
+/* The search for all that the window and the program can do: what is in menus, and what is behind buttons and keys; and
+ * the menu itself. */
 #include <glib/gi18n.h>
 
 #include "ui/dialogs/spore-search.h"
@@ -35,6 +36,7 @@ static const struct {
     {"win.cut::y", N_("Look inside: plane across Y")},
     {"win.cut::z", N_("Look inside: plane across Z")},
     {"win.cut-other-side", N_("Look inside: hide the other side")},
+    {"win.open-menu", N_("Open the menu")},
     {"win.filter", N_("Filter the outliner")},
     {"win.preview-spheres(uint32 0)", N_("Generate spheres")},
     {"win.preview-tetrahedra(uint32 0)", N_("Generate tetrahedra")},
@@ -163,7 +165,11 @@ static void act_search(GSimpleAction *action, GVariant *parameter, gpointer data
   gtk_widget_show_all(spore_search_new(data, commands_of(data)));
 }
 
+static void act_open_menu(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(((SporeWindow *)data)->menu_button), TRUE);
+}
+
 void spore_window_add_search_action(SporeWindow *self) {
-  static const GActionEntry actions[] = {{"search", act_search}};
+  static const GActionEntry actions[] = {{"search", act_search}, {"open-menu", act_open_menu}};
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

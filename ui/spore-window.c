@@ -151,6 +151,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, play_button);
   gtk_widget_class_bind_template_child(widget, SporeWindow, play_image);
   gtk_widget_class_bind_template_child(widget, SporeWindow, speed_button);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, menu_button);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_remedy);

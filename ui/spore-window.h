@@ -33,7 +33,7 @@
  *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
  *               show-inspector, show-problems, present (state), filter, measure [s "distance", "angle" or "volume"],
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
- *   others      search (for any of these), report [s message]
+ *   others      search (for any of these), open-menu, report [s message]
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

@@ -2117,6 +2117,11 @@ def search_for_a_command():
         ui.wait(lambda: editor.state("tool") == "probe" != first, "the second one to be run")
         search("no such thing")
         editor.find("label", "^No command has these words$")
+        editor.keys("Escape")
+        ui.wait(lambda: not is_open(), "Escape to close it")
+        editor.focus()
+        editor.keys("F10")
+        editor.find("menu item|.*button", "^Search for a command…$")
 
 
 @check
