@@ -181,13 +181,20 @@ static gboolean generate_labels(SporeCli *cli, LabelWork *work, GError **error) 
   gsize size;
   const void *bytes = g_bytes_get_data(work->content, &size);
   if (!spore_label_map_decode(work->file, bytes, size, &work->map, spore_cli_progress(cli), error) ||
-      !spore_cli_label_tetrahedra(cli, work->file, &work->map, work->chosen, &work->fields, &work->mesh, &work->figures,
-                                  error))
+      !spore_cli_label_tetrahedra(cli, work->file, &work->map, work->chosen, work->survey, &work->fields, &work->mesh,
+                                  &work->figures, error))
     return FALSE;
   spore_cli_report_labels(cli, &work->mesh, &work->figures, work->survey);
   say_many(cli, work);
   if (!work->output) return TRUE;
   return spore_cli_is_scene(work->output) ? save_scene(cli, work, error) : write_cells(work, error);
+}
+
+static GArray *all_labels(const SporeLabelSurvey *survey) {
+  GArray *labels = g_array_new(FALSE, FALSE, sizeof(guint16));
+  for (guint i = 0; i < survey->entries->len; i++)
+    g_array_append_val(labels, g_array_index(survey->entries, SporeLabelEntry, i).label);
+  return labels;
 }
 
 /* Lists the labels of a map, or meshes them. */
@@ -200,8 +207,8 @@ static int use_labels(SporeCli *cli, const char *file, GBytes *content, const Sp
     spore_cli_report_list(cli, survey);
     return spore_cli_finish(cli, SPORE_EXIT_DONE);
   }
-  g_autoptr(GArray) chosen = wish->labels ? spore_label_survey_choose(survey, wish->labels, &error)
-                                          : g_array_new(FALSE, FALSE, sizeof(guint16));
+  g_autoptr(GArray) chosen =
+      wish->labels ? spore_label_survey_choose(survey, wish->labels, &error) : all_labels(survey);
   if (!chosen) return spore_cli_fail(error);
   LabelWork work = {.file = file,
                     .output = output,
@@ -300,8 +307,8 @@ static const SporeReportMember members[] = {
     {"border_distance",
      N_("with --pieces apart: largest distance of the surfaces between pieces from these faces, of the diagonal")},
     {"labels",
-     N_("of a label map, of each organ: label, name, cells, share (of all cells), volume_m3, voxel_volume_m3, "
-        "volume_change, "
+     N_("of a label map, of each organ: label, name, cells, weight (cells wanted for its volume: more where its name "
+        "says a soft tissue), share (of all cells), volume_m3, voxel_volume_m3, volume_change, "
         "min_dihedral_deg, cut; with --list: label, name, named (file, sidecar, guessed), voxels, volume_m3, size_m "
         "(along the map's axes), cut (sides of the volume that it reaches: i- i+ j- j+ k- k+)")},
     {"surroundings",

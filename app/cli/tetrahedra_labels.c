@@ -5,16 +5,21 @@
 
 #include "app/cli/scene.h"
 #include "app/cli/tetrahedra_list.h"
+#include "core/author/anatomy.h"
 #include "core/author/label_surroundings.h"
 #include "core/io/scene_xml.h"
 
 gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, const SporeLabelMap *map, const GArray *labels,
-                                    const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
-                                    SporeLabelTetrahedraReport *report, GError **error) {
+                                    const SporeLabelSurvey *survey, const SporeTetrahedraFields *fields,
+                                    SporeTetrahedralMesh *mesh, SporeLabelTetrahedraReport *report, GError **error) {
+  g_autofree double *weights = g_new(double, labels->len);
   SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
                                          .size = fields->size,
                                          .labels = (const uint16_t *)(const void *)labels->data,
-                                         .label_count = labels->len};
+                                         .label_count = labels->len,
+                                         .weights = weights};
+  for (guint i = 0; i < labels->len; i++)
+    weights[i] = spore_anatomy_cell_weight(spore_label_survey_entry(survey, options.labels[i])->name);
   return spore_label_tetrahedra(file, map, &options, mesh, report, spore_cli_progress(cli), error);
 }
 
@@ -81,9 +86,11 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
     spore_cli_open(cli, NULL);
     const SporeLabelEntry *entry = spore_label_survey_entry(survey, figures->label);
     const char *name = entry->name;
+    const double weight = spore_anatomy_cell_weight(name);
     spore_cli_count(cli, "label", figures->label);
     spore_cli_text(cli, "name", name);
     spore_cli_count(cli, "cells", (gint64)figures->cells);
+    spore_cli_number(cli, "weight", weight);
     spore_cli_number(cli, "share", (double)figures->cells / (double)mesh->tetrahedron_count);
     spore_cli_number(cli, "volume_m3", figures->volume);
     spore_cli_number(cli, "voxel_volume_m3", figures->voxel_volume);
@@ -96,6 +103,8 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, co
                     name, figures->cells, 100 * (double)figures->cells / (double)mesh->tetrahedron_count,
                     1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
     else spore_cli_say(cli, _("  %s: finer than the cells, it has none; ask for more or smaller cells"), name);
+    if (figures->cells && weight != 1)
+      spore_cli_say(cli, _(", cells for its volume by its tissue: %.2g times"), weight);
     spore_cli_say_sides(cli, entry);
     spore_cli_say(cli, "\n");
   }

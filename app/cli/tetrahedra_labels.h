@@ -7,11 +7,11 @@
 #include "core/generate/labels/labels.h"
 #include "core/io/label_survey.h"
 
-/* Meshes the label map that was read from `file`. labels: of guint16; empty for all. The members of the report are
- * those of spore tetrahedra, and `labels`. */
+/* Meshes these labels (of guint16) of the map that was read from `file`. Organs whose name says a softer tissue get
+ * more cells for their volume. The members of the report are those of spore tetrahedra, and `labels`. */
 gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, const SporeLabelMap *map, const GArray *labels,
-                                    const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
-                                    SporeLabelTetrahedraReport *report, GError **error);
+                                    const SporeLabelSurvey *survey, const SporeTetrahedraFields *fields,
+                                    SporeTetrahedralMesh *mesh, SporeLabelTetrahedraReport *report, GError **error);
 /* Reports the organs by the names of the survey. */
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
                              const SporeLabelSurvey *survey);

@@ -5,10 +5,14 @@
 #include <string.h>
 
 #include "core/author/edits.h"
+#include "core/body/tissue.h"
 
 #define GOLDEN 0.6180339887 /* hues of numbers in a row lie far apart */
 #define MUTED 0.35
 #define BRIGHT 0.78
+#define USUAL_MODULUS 5000.0 /* Pa: of organs like liver and kidney */
+#define LEAST_WEIGHT 0.5
+#define MOST_WEIGHT 2.0
 
 /* A word at the beginning of a part of a name, and what it says; the first that is found counts. */
 typedef struct Word {
@@ -111,6 +115,16 @@ gboolean spore_anatomy_knows(const char *name) { return word_of(name) != NULL; }
 const char *spore_anatomy_material(const char *name) {
   const Word *word = word_of(name);
   return word ? word->material : NULL;
+}
+
+double spore_anatomy_cell_weight(const char *name) {
+  const char *material = spore_anatomy_material(name);
+  for (const SporeTissue *tissue = spore_tissues; material && tissue->name; tissue++) {
+    const SporeTissueQuantity *modulus = spore_tissue_find(tissue, "young_modulus");
+    if (modulus && g_str_equal(tissue->name, material))
+      return CLAMP(sqrt(USUAL_MODULUS / modulus->typical.number[0]), LEAST_WEIGHT, MOST_WEIGHT);
+  }
+  return 1;
 }
 
 gboolean spore_edit_use_anatomy(SporeDocument *document, SporeObject *body, const char *name, guint number,

@@ -12,6 +12,10 @@ gboolean spore_anatomy_knows(const char *name);
 /* A material of the scene, by name; NULL: the name says none. */
 const char *spore_anatomy_material(const char *name);
 
+/* Cells for its volume that an organ of that name should have, relative to one whose name says no tissue: the root of
+ * how much softer than 5 kPa its tissue is, from 1/2 to 2, as what is softer bends and gives way more. */
+double spore_anatomy_cell_weight(const char *name);
+
 /* Gives a body, made under that name, its colour and, where it has a mechanical unit, its material. Call it inside a
  * group. */
 gboolean spore_edit_use_anatomy(SporeDocument *document, SporeObject *body, const char *name, guint number,

@@ -3,6 +3,7 @@
 
 #include <glib/gi18n.h>
 
+#include "core/author/anatomy.h"
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/generator_work.h"
@@ -66,10 +67,16 @@ static GArray *chosen_for(const SporeGenerateWork *work, SporeLabelChoice choice
 static gboolean make_soft(SporeGenerateWork *work, const SporeLabelMap *map, const GArray *soft,
                           const SporeProgress *progress, GError **error) {
   const SporeTetrahedraFields *fields = &work->options.fields.tetrahedra;
+  g_autofree double *weights = g_new(double, soft->len);
   SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
                                          .size = fields->size,
                                          .labels = (const uint16_t *)(const void *)soft->data,
-                                         .label_count = soft->len};
+                                         .label_count = soft->len,
+                                         .weights = weights};
+  for (guint i = 0; i < soft->len; i++) {
+    g_autofree char *name = spore_label_source_name(work->options.labels, place_of(work, options.labels[i]));
+    weights[i] = spore_anatomy_cell_weight(name);
+  }
   return spore_label_tetrahedra(work->source, map, &options, &work->tetrahedra, &work->label_report, progress, error);
 }
 

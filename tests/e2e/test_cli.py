@@ -611,6 +611,11 @@ def scene_of_a_label_map():
     report("run", "patient/patient.spore", "--steps", 3)
     again = spore("tetrahedra", "patient.seg.nrrd", "--cells", 600, "-o", "patient/patient.spore")
     assert "takes the place" in again.stdout and "were asked for" not in again.stdout
+    tissues = file("tissues.nrrd", named.replace(b"left lobe", b"stomach").replace(b"gall bladder", b"gallbladder"))
+    soft, stiff = report("tetrahedra", tissues, "--cells", 600)["labels"]
+    assert [row["weight"] for row in answer["labels"]] == [1, 1] and soft["weight"] > 1.5 and stiff["weight"] == 0.5, soft
+    per_volume = [soft["cells"] / soft["volume_m3"], stiff["cells"] / stiff["volume_m3"]]
+    assert per_volume[0] > 1.9 * per_volume[1], per_volume
     side = 16
     specks = bytes(int(i % 4 < 2 and j % 4 < 2 and k % 4 < 2) for k in range(side) for j in range(side) for i in range(side))
     assert "cells were asked for" in spore("tetrahedra", file("specks.nrrd", shapes.nrrd((side,) * 3, specks)), "--cells", 20).stdout

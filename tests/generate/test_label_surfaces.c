@@ -225,6 +225,28 @@ static void test_specks_early(void) {
   g_assert_nonnull(strstr(error->message, "specks"));
 }
 
+/* Two halves of a block share the cells by volume, and by weight: neither gets less than nearly its share. */
+static void test_shares(void) {
+  static const double weights[][2] = {{1, 1}, {2, 0.5}, {0.5, 2}};
+  static const uint16_t labels[2] = {1, 2};
+  g_autofree Map *m = new_map(false);
+  for (int i = 0; i < SIDE * SIDE * SIDE; i++) m->voxels[i] = i / SIDE / SIDE < SIDE / 2 ? 1 : 2;
+  for (gsize c = 0; c < G_N_ELEMENTS(weights); c++) {
+    SporeLabelTetrahedraOptions options = {.cells = 300, .labels = labels, .label_count = 2, .weights = weights[c]};
+    SporeTetrahedralMesh cells;
+    SporeLabelTetrahedraReport report;
+    g_assert_true(spore_label_tetrahedra("map", &m->map, &options, &cells, &report, NULL, NULL));
+    const SporeLabelFigures *of = (const SporeLabelFigures *)(const void *)report.labels->data;
+    const double first = (double)of[0].cells, share = first / (double)cells.tetrahedron_count,
+                 wanted = weights[c][0] / (weights[c][0] + weights[c][1]);
+    g_test_message("%zu cells, %.3f of them in the first half; %.3f wanted", cells.tetrahedron_count, share, wanted);
+    g_assert_cmpfloat(fabs(share - wanted), <, 0.1);
+    g_assert_cmpfloat(fabs((double)cells.tetrahedron_count / 300 - 1), <, 0.05);
+    g_array_unref(report.labels);
+    spore_tetrahedral_mesh_clear(&cells);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_data_func("/label-surfaces/organs", GINT_TO_POINTER(false), test_organs);
@@ -234,5 +256,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/label-surfaces/refused", test_refused);
   g_test_add_func("/label-surfaces/specks", test_specks);
   g_test_add_func("/label-surfaces/specks early", test_specks_early);
+  g_test_add_func("/label-surfaces/shares", test_shares);
   return g_test_run();
 }

@@ -66,17 +66,27 @@ typedef struct {
   SporeSkinPoints *points;
   const SporeSizing *sizing;
   size_t cells;
+  const size_t *kept;
   double usual, limit, floor;
 } Coarsening;
+
+/* Cells of each label. NULL: no memory. */
+static size_t *count_labels(const SporeTetrahedralMesh *mesh) {
+  uint32_t most = 0;
+  for (size_t t = 0; t < mesh->tetrahedron_count; t++) most = mesh->labels[t] > most ? mesh->labels[t] : most;
+  size_t *count = SPORE_NEW_ARRAY(size_t, (size_t)most + 1);
+  for (size_t t = 0; count && t < mesh->tetrahedron_count; t++) count[mesh->labels[t]]++;
+  return count;
+}
 
 /* One pass of collapses; false: no memory. */
 static bool collapse_all(Coarsening *c, SporeError *error) {
   SporeStars stars = {0};
   SporeSkin skin = {0};
   SporeCollapse *collapse = SPORE_NEW(SporeCollapse);
-  size_t count = 0, left = c->mesh->tetrahedron_count;
+  size_t count = 0, left = c->mesh->tetrahedron_count, *cells_of_labels = NULL;
   Edge *edges = NULL;
-  bool done = collapse != NULL || spore_mesh_no_memory(error);
+  bool done = (collapse && (!c->kept || (cells_of_labels = count_labels(c->mesh)))) || spore_mesh_no_memory(error);
   done = done && spore_stars_create(&stars, c->mesh, c->mesh->labels, error) &&
          spore_skin_create(&skin, c->mesh, c->points, error);
   if (done)
@@ -84,6 +94,8 @@ static bool collapse_all(Coarsening *c, SporeError *error) {
                                 .skin = &skin,
                                 .points = c->points,
                                 .surface = c->surface,
+                                .kept = c->kept,
+                                .left = cells_of_labels,
                                 .floor = c->floor,
                                 .limit = c->limit};
   done = done && spore_collapse_create(collapse, error);
@@ -92,6 +104,7 @@ static bool collapse_all(Coarsening *c, SporeError *error) {
     if (spore_collapse_edge(collapse, edges[e].a, edges[e].b)) left -= collapse->dying_count;
   if (collapse) spore_collapse_clear(collapse);
   spore_free(collapse);
+  spore_free(cells_of_labels);
   spore_free(edges);
   spore_skin_clear(&skin);
   spore_stars_clear(&stars);
@@ -116,10 +129,10 @@ static double largest_size(const SporeSizing *sizing) {
 }
 
 bool spore_tetrahedra_coarsen(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points,
-                              const SporeSizing *sizing, size_t cells, double least, const SporeProgress *progress,
-                              SporeError *error) {
+                              const SporeSizing *sizing, size_t cells, const size_t *kept, double least,
+                              const SporeProgress *progress, SporeError *error) {
   const double first = (double)mesh->tetrahedron_count, usual = largest_size(sizing);
-  Coarsening c = {mesh, surface, points, sizing, cells, usual, FIRST_LIMIT * usual, least + MARGIN};
+  Coarsening c = {mesh, surface, points, sizing, cells, kept, usual, FIRST_LIMIT * usual, least + MARGIN};
   for (int pass = 0; pass < MOST_PASSES && mesh->tetrahedron_count > cells; pass++) {
     double before = (double)mesh->tetrahedron_count;
     if (!spore_progress_step(progress, log(first / before) / log(first / (double)cells), _("making the cells fewer"),

@@ -54,6 +54,15 @@ static bool gather_cells(SporeCollapse *c, uint32_t a, uint32_t b) {
   return c->dying_count > 0;
 }
 
+/* Whether a label could be left with fewer cells than it keeps. */
+static bool takes_too_many(const SporeCollapse *c) {
+  for (size_t i = 0; c->kept && i < c->dying_count; i++) {
+    const uint32_t label = c->stars->mesh->labels[c->dying[i]];
+    if (c->left[label] < c->kept[label] + c->dying_count) return true;
+  }
+  return false;
+}
+
 static void mark_neighbours(SporeCollapse *c, uint32_t *mark, uint32_t v, bool skin) {
   size_t begin = skin ? c->skin->first[v] : c->stars->first[v],
          end = skin ? c->skin->first[v + 1] : c->stars->first[v + 1];
@@ -278,6 +287,7 @@ static void perform(SporeCollapse *c, uint32_t a, uint32_t b, SporeVec3 p) {
   }
   for (size_t i = 0; i < c->dying_count; i++) {
     mesh->tetrahedra[4 * (size_t)c->dying[i]] = UINT32_MAX;
+    if (c->kept) c->left[mesh->labels[c->dying[i]]]--;
     c->touched[c->dying[i]] = true;
   }
 }
@@ -293,7 +303,7 @@ static double off_now(const SporeCollapse *c) {
 
 bool spore_collapse_edge(SporeCollapse *c, uint32_t a, uint32_t b) {
   bool a_goes, b_goes;
-  if (!gather_cells(c, a, b)) return false;
+  if (!gather_cells(c, a, b) || takes_too_many(c)) return false;
   sides_allow(c, a, b, &a_goes, &b_goes);
   if ((!a_goes && !b_goes) || !vertices_allow(c, a, b) || !triangles_allow(c, a, b) || !skin_allows(c, a, b))
     return false;

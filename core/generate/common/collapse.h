@@ -16,6 +16,8 @@ typedef struct SporeCollapse {
   const SporeBvh *surface; /* the surface that the skin must be near, or NULL */
   double floor;            /* least quality of the changed cells */
   double limit;            /* largest distance of the skin from its points */
+  const size_t *kept;      /* by label: the fewest cells of each; NULL: any number */
+  size_t *left;            /* by label: cells there are */
   bool *touched;           /* cells around changed vertices: their stars are no longer valid */
   uint32_t *mark, *ring_mark, stamp;
   /* of the present edge */

@@ -125,10 +125,11 @@ bool spore_tetrahedra_improve(SporeTetrahedralMesh *mesh, uint32_t **labels, con
 
 /* Collapses edges until `cells` are left, or no further edge can be collapsed. Edges that are short relative to the
  * wanted length go first, and those that keep the skin nearest to its points. No cell's quality falls below `least`.
- * mesh->labels are kept. Vertices keep their numbers; some are no longer in any cell. */
+ * mesh->labels are kept. kept: by label, cells that each keeps, of a label that has fewer all; NULL: any number.
+ * Vertices keep their numbers; some are no longer in any cell. */
 bool spore_tetrahedra_coarsen(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points,
-                              const SporeSizing *sizing, size_t cells, double least, const SporeProgress *progress,
-                              SporeError *error);
+                              const SporeSizing *sizing, size_t cells, const size_t *kept, double least,
+                              const SporeProgress *progress, SporeError *error);
 
 /* Moves vertices of the skin to where its faces are nearest to their points (and the middles of the faces to
  * `surface`, unless it is NULL), even off the surface. Distances beyond `usual` count more than by their squares. No

@@ -10,6 +10,7 @@ typedef struct SporeLabelTetrahedraOptions {
   double size;            /* m, edge of the lattice's cubes, when cells is 0 */
   const uint16_t *labels; /* wanted labels; all others count as nothing */
   size_t label_count;     /* 0: all above 0 */
+  const double *weights;  /* label_count: cells of each label for its volume, relative to the others; NULL: all alike */
 } SporeLabelTetrahedraOptions;
 
 typedef struct SporeLabelFigures {
@@ -32,9 +33,10 @@ typedef struct SporeLabelTetrahedraReport {
  * where the shares are equal (against nothing: where nothing has one half). Moves keep dihedral angles at least 15
  * degrees from 0 and from 180. Cells that the border could not pass are relabelled. For a wanted number of cells the
  * lattice has up to 24 times as many. The lattice is coarsened where this moves the borders least, with no angle below
- * 11 degrees; the borders then shift slightly to restore each label's volume. So every cell is sound, and organs share
- * the faces between them. result->labels has the organ of each tetrahedron. An organ finer than the lattice may have no
- * cell: the figures show this. FALSE: nothing to mesh, too many cells, no memory, cancelled. */
+ * 11 degrees, and with weights each label keeps nearly its share by volume and weight; the borders then shift slightly
+ * to restore each label's volume. So every cell is sound, and organs share the faces between them. result->labels has
+ * the organ of each tetrahedron. An organ finer than the lattice may have no cell: the figures show this. FALSE:
+ * nothing to mesh, too many cells, no memory, cancelled. */
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
                                 SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
                                 const SporeProgress *progress, GError **error);

@@ -68,8 +68,8 @@ bool spore_label_fit(const SporeLabelField *field, SporeTetrahedralMesh *mesh, d
                      SporeLabelPoints *points, const SporeProgress *progress, SporeError *error);
 
 /* Coarsens the mesh to `cells` cells, with its borders near the points. The points then shift slightly to restore the
- * volumes. size: m, the wanted edge length. */
+ * volumes. size: m, the wanted edge length; kept: of the 65536 labels, the fewest cells that each keeps. */
 bool spore_label_coarsen(SporeTetrahedralMesh *mesh, SporeLabelPoints *points, size_t cells, double size,
-                         const double *volumes, const SporeProgress *progress, SporeError *error);
+                         const size_t *kept, const double *volumes, const SporeProgress *progress, SporeError *error);
 
 #endif

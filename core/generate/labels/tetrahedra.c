@@ -21,6 +21,7 @@
 #define SPIKE_ROUNDS 3
 #define TURNS 2          /* of moving the borders */
 #define MOST_SPIKES 20   /* an organ of at most so many cells keeps all of them */
+#define KEPT 0.9         /* of its share: what an organ keeps of the cells, where the weights differ */
 #define LEAST_ANGLE 11.0 /* degrees */
 #define BORDER_TURNS 8   /* of moving the borders of the coarser cells, and then the points */
 #define ROUNDS 2         /* of moving, for each turn */
@@ -33,8 +34,10 @@ typedef struct Meshing {
   SporeLabelField field;
   bool wanted[65536];
   double volumes[65536];     /* of the voxels of each label */
+  double weights[65536];     /* cells of each label for its volume, relative to the others */
+  size_t kept[65536];        /* the fewest cells of each label */
   double lower[3], upper[3]; /* of the wanted voxels */
-  double volume;
+  double volume, weighted_volume;
   double edge;
   SporeProgressShare stage; /* the current stage */
 } Meshing;
@@ -84,6 +87,7 @@ static bool measure_map(Meshing *m, const SporeLabelMap *map) {
         if (!m->wanted[label]) continue;
         m->volumes[label] += voxel;
         m->volume += voxel;
+        m->weighted_volume += m->weights[label] * voxel;
         low[0] = MIN(low[0], i), low[1] = MIN(low[1], j), low[2] = MIN(low[2], k);
         high[0] = MAX(high[0], i), high[1] = MAX(high[1], j), high[2] = MAX(high[2], k);
       }
@@ -139,6 +143,16 @@ static void relabel(const Meshing *m, SporeTetrahedralMesh *mesh) {
     mesh->labels[kept++] = label;
   }
   mesh->tetrahedron_count = kept;
+}
+
+/* What each label keeps of the cells where the weights differ: nearly its share. Where they are alike, the borders say
+ * where cells are needed: a thin layer needs more than its volume. */
+static void share_cells(Meshing *m) {
+  double least = HUGE_VAL, most = 0;
+  for (size_t i = 0; i < LABELS; i++)
+    if (m->volumes[i] > 0) least = fmin(least, m->weights[i]), most = fmax(most, m->weights[i]);
+  for (size_t i = 0; i < LABELS && least < most; i++)
+    m->kept[i] = (size_t)(KEPT * (double)m->options->cells * m->weights[i] * m->volumes[i] / m->weighted_volume);
 }
 
 /* Moves the borders to their places. points: filled if the mesh is to be coarsened. */
@@ -203,7 +217,11 @@ static bool check(Meshing *m, const SporeLabelMap *map, const SporeProgress *pro
                              "them"),
                            options->size);
   for (guint label = 1; label < 65536; label++) m->wanted[label] = options->label_count == 0;
-  for (size_t i = 0; i < options->label_count; i++) m->wanted[options->labels[i]] = options->labels[i] > 0;
+  for (size_t i = 0; i < LABELS; i++) m->weights[i] = 1;
+  for (size_t i = 0; i < options->label_count; i++) {
+    m->wanted[options->labels[i]] = options->labels[i] > 0;
+    if (options->weights) m->weights[options->labels[i]] = options->weights[i];
+  }
   if (!measure_map(m, map))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("no voxel has a label that is wanted; expected some; give labels that there are"));
@@ -242,10 +260,11 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   done = done && fit(m, result, &points, &failure);
   part = spore_progress_of_share(&m->stage);
   m->stage.share = 1 - m->stage.done;
+  share_cells(m);
   done = done &&
          (!options->cells ||
           spore_label_coarsen(result, &points, options->cells, cbrt(m->volume / (CELL * (double)options->cells)),
-                              m->volumes, &part, &failure)) &&
+                              m->kept, m->volumes, &part, &failure)) &&
          spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);
   spore_label_points_clear(&points);
   spore_label_field_clear(&m->field);
@@ -299,11 +318,12 @@ static void give_way(SporeLabelPoints *points, Balance *b, const double *wanted,
 }
 
 bool spore_label_coarsen(SporeTetrahedralMesh *mesh, SporeLabelPoints *points, size_t cells, double size,
-                         const double *volumes, const SporeProgress *progress, SporeError *error) {
+                         const size_t *kept, const double *volumes, const SporeProgress *progress, SporeError *error) {
   const SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &size};
   Balance *balance = SPORE_NEW(Balance);
   bool done = balance != NULL || spore_mesh_no_memory(error);
-  done = done && spore_tetrahedra_coarsen(mesh, NULL, &points->points, &sizing, cells, LEAST_ANGLE, progress, error);
+  done =
+      done && spore_tetrahedra_coarsen(mesh, NULL, &points->points, &sizing, cells, kept, LEAST_ANGLE, progress, error);
   for (int turn = 0; done && turn < BORDER_TURNS; turn++) {
     if (turn && !(done = measure_borders(mesh, balance->volume, balance->area) || spore_mesh_no_memory(error))) break;
     done = spore_progress_step(progress, 1, _("fitting the borders"), error);

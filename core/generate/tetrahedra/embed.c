@@ -127,7 +127,7 @@ static bool reduce(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeE
   size_edges(&plan, work, mesh);
   size_t cells = work->options.cells ? work->options.cells : (size_t)ceil(count_of(&plan.grid, mesh));
   done = spore_tetrahedra_points(work, mesh, POINTS * cells + LEAST_POINTS, &points, error) &&
-         spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, &plan.grid, cells,
+         spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, &plan.grid, cells, NULL,
                                   SPORE_TETRAHEDRA_KEPT, &progress, error) &&
          spore_tetrahedral_mesh_drop_unused(mesh, error);
   spore_skin_points_clear(&points);
