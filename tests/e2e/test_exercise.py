@@ -323,6 +323,36 @@ def suction_sucks_and_what_a_wound_gives_is_lost():
 
 
 @check
+def a_wound_bleeds_from_the_cut_until_it_is_coagulated():
+    if is_sanitized(SPORE):
+        return
+    shipped = (SCENES / "cut-ovary.spore").read_text()
+    bleeding = shipped.replace("</assets>", '<mesh name="drop" file="table1/drop.off"/></assets>').replace(
+        "</bodies>", '<body name="blood"><mechanical geometry="drop" substeps="60"><lennard_jones particles="60"/></mechanical></body></bodies>').replace(
+        "<tools>", '<effects><emitter name="wound" body="blood" source="ovary_right" point="0.0575 0.018 0.016" direction="0 1 0.5" rate="100" '
+        'reserve="30" trigger="wound"/></effects><tools>')
+    burnt = bleeding.replace("</bodies>", '<body name="hot" role="active" position="0.0575 0.018 0.016"/></bodies>').replace(
+        "</tools>", '<bipolar name="burn" body="hot" device="hand" point="0.0575 0.018 0.016" radius="0.01"/></tools>').replace(
+        "</devices>", '<track name="hand" file="hot.track"/></devices>')
+    (SCENES / "hot.track").write_text("spore-track 1\ndevice hot\n" + "".join(f"{t} 0.0575 0.018 0.016 1 0 0 0 0 1\n" for t in (0, 9)))
+    nowhere = bleeding.replace('source="ovary_right"', '')
+    parts = '<cut name="cut" body="ovary_right"/><cut name="never" body="ovary_right" count="1000000"/><blood_lost name="lost" body="blood"/>'
+    try:
+        found = []
+        for text in bleeding, burnt:
+            (SCENES / "cut-ovary.spore").write_text(text)
+            found.append([run_shipped("cut-ovary", parts, count) for count in (150, 225)])
+        (SCENES / "cut-ovary.spore").write_text(nowhere)
+        refused = spore("run", SCENES / "cut-ovary.spore", "-n", 1, status=2).stderr
+    finally:
+        (SCENES / "cut-ovary.spore").write_text(shipped)
+    assert "the mouth is in nothing that can be cut" in refused, refused
+    lost = [[metrics(exercise)["lost"]["value"] for exercise in runs] for runs in found]
+    assert all(steps(runs[1])["cut"]["phase"] == "done" for runs in found), found
+    assert lost[0][0] == 0 and lost[0][1] > 0 and lost[1][1] < 0.5 * lost[0][1], lost
+
+
+@check
 def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
     def report(count, threads=1):
         return json.loads(spore("run", SCENES / "exercise-salpingectomy.spore", "-n", count, "--json", "--threads", threads).stdout)

@@ -136,6 +136,26 @@ double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_
 
 /* Emission. */
 
+/* A cut opens the wound, coagulation closes it; where both come in one step, it is closed. */
+static bool bleeds(const SporeWorld *world, SporeEmitter *emitter) {
+  SporeBodyMarks now = spore_world_body_marks(world, emitter->source);
+  if (now.cut > emitter->marks.cut) emitter->bleeds = true;
+  if (now.coagulated > emitter->marks.coagulated) emitter->bleeds = false;
+  emitter->marks = now;
+  return emitter->bleeds;
+}
+
+/* The frame that the mouth is in, in the next state. */
+static SporePose mouth_frame(const SporeWorld *world, const SporeEmitter *emitter) {
+  if (emitter->node == SPORE_NO_NODE) return spore_world_next_pose(world, emitter->source);
+  const SporeBody *body = &world->bodies[emitter->source];
+  const double *q = body->sleep.asleep ? world->state.q : world->state.next_q;
+  size_t last = body->model->node_count - 1, node = emitter->node < last ? emitter->node : last; /* of coarser levels */
+  SporePose frame = spore_pose_identity();
+  frame.position = spore_vec3_load(q + body->q_offset + 3 * node);
+  return frame;
+}
+
 /* Uniform in 0..1, the same on every machine. */
 static double next_random(uint64_t *state) {
   *state = *state * 6364136223846793005u + 1442695040888963407u;
@@ -172,14 +192,17 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   SporeBody *body = &world->bodies[emitter->body];
   const SporeEmitterFields *fields = &emitter->fields;
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
+  bool wound = fields->trigger == SPORE_FLOW_WOUND;
+  if (wound && !bleeds(world, emitter)) return;
   if (time_s < fields->start || body->frozen || body->held.count == body->held.pin_count) return;
-  emitter->due = spore_flow_due(world, fields->rate, fields->trigger, emitter->source, emitter->due);
+  emitter->due =
+      spore_flow_due(world, fields->rate, wound ? SPORE_FLOW_ALWAYS : fields->trigger, emitter->source, emitter->due);
   if (emitter->due < 1) return;
   if (body->sleep.asleep) {
     spore_world_wake(world, emitter->body); /* it gets particles after the next step */
     return;
   }
-  SporePose frame = spore_world_next_pose(world, emitter->source);
+  SporePose frame = mouth_frame(world, emitter);
   SporeVec3 velocity = spore_quat_rotate(frame.orientation, spore_vec3_scale(fields->speed, emitter->direction));
   SporeVec3 at;
   while (emitter->due >= 1 && body->held.count > body->held.pin_count && find_place(world, emitter, &frame, &at)) {
@@ -204,9 +227,13 @@ void spore_world_exchange_particles(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.emitter_count; i++) emit(world, &world->tools.emitters[i]);
 }
 
+static void begin(SporeEmitter *emitter) {
+  emitter->due = 0, emitter->tries = 1;
+  emitter->bleeds = false, emitter->marks = (SporeBodyMarks){0};
+}
+
 void spore_world_reset_particles(SporeWorld *world) {
-  for (size_t i = 0; i < world->tools.emitter_count; i++)
-    world->tools.emitters[i].due = 0, world->tools.emitters[i].tries = 1;
+  for (size_t i = 0; i < world->tools.emitter_count; i++) begin(&world->tools.emitters[i]);
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (body->parking_gap > 0) spore_body_find_parked(body, world->state.q + body->q_offset);
@@ -221,12 +248,17 @@ static bool is_bipolar(const SporeWorld *world, uint32_t body) {
   return false;
 }
 
+static bool deforms(const SporeBody *body) { return body->model && !spore_model_is_rigid(body->model); }
+
 static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDescription *from) {
   if (from->body >= world->body_count || !spore_body_is_fluid(&world->bodies[from->body]))
     return _("what comes out is not a fluid of particles; expected a body with such a model; choose one");
-  bool to_world = from->source == SPORE_NO_BODY;
-  if (!to_world && (from->source >= world->body_count ||
-                    (world->bodies[from->source].model && !spore_model_is_rigid(world->bodies[from->source].model))))
+  bool to_world = from->source == SPORE_NO_BODY, wound = from->fields.trigger == SPORE_FLOW_WOUND;
+  const SporeBody *source = from->source < world->body_count ? &world->bodies[from->source] : NULL;
+  if (wound && (!source || !source->model))
+    return _("the mouth is in nothing that can be cut, so that nothing comes out; expected the body that bleeds; "
+             "choose it, or another trigger");
+  if (!to_world && (!source || (deforms(source) && !wound)))
     return _("the mouth is in a body that deforms; expected a rigid, active or unmovable one, or none; choose another");
   if (!spore_vec3_is_finite(from->point) || !spore_vec3_is_finite(from->direction) ||
       !(spore_vec3_length(from->direction) > 0))
@@ -267,12 +299,31 @@ static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
   }
 }
 
+/* The node of the body that is nearest to the place at time 0. */
+static uint32_t nearest_node(const SporeWorld *world, const SporeBody *body, SporeVec3 place) {
+  const double *q = world->state.rest_q + body->q_offset;
+  uint32_t nearest = 0;
+  for (uint32_t i = 1; i < body->model->node_count; i++)
+    if (spore_vec3_distance(spore_vec3_load(q + 3 * i), place) <
+        spore_vec3_distance(spore_vec3_load(q + 3 * nearest), place))
+      nearest = i;
+  return nearest;
+}
+
 static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
   assert(from->source == SPORE_NO_BODY || from->source < world->body_count);
-  SporePose frame = from->source == SPORE_NO_BODY ? spore_pose_identity() : world->bodies[from->source].rest_pose;
+  const SporeBody *source = from->source == SPORE_NO_BODY ? NULL : &world->bodies[from->source];
+  SporePose frame = source ? source->rest_pose : spore_pose_identity();
+  uint32_t node = SPORE_NO_NODE;
+  if (source && deforms(source)) {
+    node = nearest_node(world, source, from->point);
+    frame = spore_pose_identity();
+    frame.position = spore_vec3_load(world->state.rest_q + source->q_offset + 3 * (size_t)node);
+  }
   SporeQuat back = spore_quat_conjugate(frame.orientation);
   SporeVec3 direction = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
-  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .fields = from->fields, .tries = 1};
+  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .node = node, .fields = from->fields};
+  begin(emitter);
   emitter->point = spore_quat_rotate(back, spore_vec3_sub(from->point, frame.position));
   emitter->direction = spore_quat_rotate(back, direction);
   keep_back(world, &world->bodies[from->body], (size_t)from->fields.reserve);
@@ -308,7 +359,7 @@ bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription
 
 const char *const spore_flow_triggers[] = {"always", "button", NULL};
 
-static const char *const triggers[] = {"always", "button", "coagulation", NULL};
+static const char *const triggers[] = {"always", "button", "coagulation", "wound", NULL};
 
 static const SporeParameter rows[] = {
     SPORE_ROW_REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
@@ -318,8 +369,10 @@ static const SporeParameter rows[] = {
     SPORE_ROW_REAL(SporeEmitterFields, start, "s", 0, 1e9, 0, N_("When the first comes out.")),
     SPORE_ROW_COUNT(SporeEmitterFields, reserve, 0, 1e6, 100,
                     N_("Particles of the fluid that are kept back at the start, to come out here.")),
-    SPORE_ROW_CHOICE(SporeEmitterFields, trigger, triggers,
-                     N_("When they come out: always; while the first button is down on the device of the instrument "
-                        "that the mouth is in; or while that instrument coagulates tissue.")),
+    SPORE_ROW_CHOICE(
+        SporeEmitterFields, trigger, triggers,
+        N_("When they come out: always; while the first button is down on the device of the instrument "
+           "that the mouth is in; while that instrument coagulates tissue; or from the moment when the body "
+           "that the mouth is in is cut until that body is coagulated.")),
 };
 const SporeParameterTable spore_emitter_parameters = SPORE_TABLE(rows, SporeEmitterFields);

@@ -15,13 +15,18 @@ typedef struct SporeTool {
   SporeVec3 tip;                      /* where it acts, in the frame of its first body, m; `make` sets it */
 } SporeTool;
 
+#define SPORE_NO_NODE UINT32_MAX
+
 /* A source of particles; see SporeEmitterDescription. */
 typedef struct SporeEmitter {
   uint32_t body, source;
-  SporeVec3 point, direction; /* in the frame of the source */
+  SporeVec3 point, direction; /* in the frame of the source; where that deforms, beside the node and in the scene */
+  uint32_t node; /* of a source that deforms, the nearest to the mouth at time 0; SPORE_NO_NODE: it is rigid */
   SporeEmitterFields fields;
-  double due;     /* particles that the rate allows by now; whole ones are put */
-  uint64_t tries; /* state of the random numbers by which places in the mouth are chosen */
+  double due;           /* particles that the rate allows by now; whole ones are put */
+  bool bleeds;          /* of a wound: it was cut, and not coagulated since */
+  SporeBodyMarks marks; /* of the source when that was found */
+  uint64_t tries;       /* state of the random numbers by which places in the mouth are chosen */
 } SporeEmitter;
 
 /* All tools and emitters of a world. */

@@ -105,8 +105,9 @@ typedef struct SporeJawFields {
 /* When particles flow. Suction knows the first two. */
 typedef enum SporeFlowTrigger {
   SPORE_FLOW_ALWAYS,
-  SPORE_FLOW_BUTTON,     /* while the first button is down */
-  SPORE_FLOW_COAGULATION /* while the tool coagulates tissue */
+  SPORE_FLOW_BUTTON,      /* while the first button is down */
+  SPORE_FLOW_COAGULATION, /* while the tool coagulates tissue */
+  SPORE_FLOW_WOUND        /* from a cut in the body until the body is coagulated */
 } SporeFlowTrigger;
 /* Parameters of suction. */
 typedef struct SporeSuctionFields {
