@@ -231,11 +231,16 @@ static gboolean write_net_springs(Sofa *sofa, const SporeObject *model, const Sp
                                    _("there is not enough memory to write it; close other programs"));
 }
 
-static gboolean write_net(Sofa *sofa, guint body, const Kind *kind, GError **error) {
+/* The surface that a net is made of; NULL: there is no such mesh. */
+static const SporeTriangleMesh *net_mesh(const Sofa *sofa, guint body) {
   const SporeObject *mechanical = spore_object_child_of(object_of(sofa, body), "mechanical");
-  SporeObject *asset = spore_document_find(sofa->export->document, "mesh", spore_object_text(mechanical, "geometry"));
-  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(sofa->export->document, asset, error) : NULL;
-  if (!mesh) return FALSE;
+  const char *name = spore_object_text(mechanical, "geometry");
+  SporeObject *asset = name ? spore_document_find(sofa->export->document, "mesh", name) : NULL;
+  return asset ? spore_document_mesh(sofa->export->document, asset, NULL) : NULL;
+}
+
+static gboolean write_net(Sofa *sofa, guint body, const Kind *kind, GError **error) {
+  const SporeTriangleMesh *mesh = net_mesh(sofa, body);
   const SporePose start = spore_world_start_pose(sofa->world, body);
   g_autofree double *rest = g_new(double, 3 * mesh->vertex_count);
   for (gsize i = 0; i < mesh->vertex_count; i++)
@@ -261,25 +266,35 @@ static const Kind kinds[] = {
 };
 static const Kind still = {NULL, NULL, write_still};
 
-/* NULL: the file cannot have the body. Elements of ten nodes are not in it. */
+/* Whether the points of the model are those that the file takes: elements of ten nodes have more, and coarser levels of
+ * detail have others. */
+static gboolean fits(const Sofa *sofa, guint body, const Kind *kind) {
+  const gsize nodes =
+      spore_world_body_model(sofa->world, body)->node_count - spore_world_body_model(sofa->world, body)->spare_count;
+  if (spore_world_first_lod(sofa->world, body) != SPORE_LOD_FINE) return FALSE;
+  if (kind->write == write_tetrahedra) {
+    const SporeDrawnPart *cells = cells_of(sofa, body);
+    return cells && cells->count == nodes;
+  }
+  const SporeTriangleMesh *mesh = kind->write == write_net ? net_mesh(sofa, body) : NULL;
+  return kind->write != write_net || (mesh && mesh->vertex_count == nodes);
+}
+
+/* NULL: the file cannot have the body. */
 static const Kind *kind_of(const Sofa *sofa, guint body) {
   const SporeModel *model = spore_world_body_model(sofa->world, body);
   if (spore_world_body_role(sofa->world, body) != SPORE_PASSIVE) return &still;
-  for (gsize i = 0; model && i < G_N_ELEMENTS(kinds); i++) {
-    if (kinds[i].type != model->type) continue;
-    const SporeDrawnPart *cells = cells_of(sofa, body);
-    gboolean fits =
-        kinds[i].write != write_tetrahedra || (cells && cells->count == model->node_count - model->spare_count);
-    return fits ? &kinds[i] : NULL;
-  }
+  for (gsize i = 0; model && i < G_N_ELEMENTS(kinds); i++)
+    if (kinds[i].type == model->type) return fits(sofa, body, &kinds[i]) ? &kinds[i] : NULL;
   return NULL;
 }
 
 static void tell_body(const Sofa *sofa, guint body, const Kind *kind) {
   const char *name = spore_world_body_name(sofa->world, body);
   if (!kind)
-    spore_export_lose(sofa->export, g_strdup_printf(_("%s: the file has no such body (%s)"), name,
-                                                    _(spore_world_body_model(sofa->world, body)->type->label)));
+    spore_export_lose(sofa->export,
+                      g_strdup_printf(_("%s: the file has no such body (%s), or not at its level of detail"), name,
+                                      _(spore_world_body_model(sofa->world, body)->type->label)));
   else if (spore_world_body_role(sofa->world, body) == SPORE_ACTIVE)
     spore_export_lose(sofa->export, g_strdup_printf(_("%s: it stands still, since no device leads it there"), name));
   if (kind && kind != &still &&

@@ -550,6 +550,15 @@ def sofa_holds_or_names_every_body(*_):
         assert bodies.keys() == set(names) - gone and gone <= set(names), path
         known.update(element.tag for element in root.iter())
     assert known >= {"UniformMass", "DiagonalMass", "TetrahedronHyperelasticityFEMForceField", "StiffSpringForceField", "SphereCollisionModel", "RigidMapping"}
+    head, body, rest = re.split(r'(<body name="bag".*?)(?=</body>)', (SCENES / "bag.spore").read_text(), maxsplit=1, flags=re.DOTALL)
+    head = re.sub(r'(<mesh name="bag)(".*?/>)', r"\1\2\1_again\2", head, count=1)
+    for folder in ("bag", "organs", "instruments"):
+        shutil.copytree(SCENES / folder, FOLDER / "levels" / folder)
+    for level in ("fine", "coarse"):
+        levels = f'<fidelity level="{level}"><coarse geometry="bag_again"/></fidelity>'
+        (FOLDER / "levels" / "bag.spore").write_text(head + body + levels + rest)
+        _, bodies, lost = sofa(FOLDER / "levels" / "bag")
+        assert ("bag" in bodies) == (level == "fine") == (not any(word.startswith("bag: the file") for word in lost)), lost
     refused = run(SPORE, "export", SCENES / "minimal.spore", "--format", "sofa", "-o", FOLDER / "no.scn", "--time", "1", status=2)
     assert "--time" in refused and not (FOLDER / "no.scn").exists()
 
