@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/patient_positions.h"
 #include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
 
@@ -92,6 +93,14 @@ static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpoint
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
   if (!spore_edit_remove_region(document_of(self), g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
+/* The state follows gravity; see spore-window-needs.c. */
+static void change_patient(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_edit_lay_patient(document_of(self), g_variant_get_string(state, NULL), &error))
     spore_window_failed(self, error);
 }
 
@@ -298,6 +307,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"add-region", act_add_region, "s"},
       {"place-region", act_place_region, "s"},
       {"remove-region", act_remove_region, "s"},
+      {"patient", NULL, "s", "''", change_patient},
       {"play", act_play},
       {"pause", act_pause},
       {"play-pause", act_play_pause},

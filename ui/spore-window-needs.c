@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/exercise_edits.h"
+#include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
 #include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
@@ -216,6 +217,13 @@ static guint needs_of(const char *action) {
   return g_str_has_prefix(action, "preview-") ? JOBLESS | BODIES : 0;
 }
 
+/* Gravity may be set in other ways, too. */
+static void show_patient(SporeWindow *self) {
+  const SporePatientPosition *position = spore_patient_position_of(spore_editor_document_get(self->document));
+  GAction *action = g_action_map_lookup_action(G_ACTION_MAP(self), "patient");
+  g_simple_action_set_state(G_SIMPLE_ACTION(action), g_variant_new_string(position ? position->name : ""));
+}
+
 void spore_window_update_actions(SporeWindow *self) {
   g_auto(GStrv) actions = g_action_group_list_actions(G_ACTION_GROUP(self));
   guint now = there(self);
@@ -224,6 +232,7 @@ void spore_window_update_actions(SporeWindow *self) {
     guint all = needs_of(*action);
     if (all) g_simple_action_set_enabled(G_SIMPLE_ACTION(found), (all & ~now) == 0);
   }
+  show_patient(self);
 }
 
 const char *spore_window_missing(SporeWindow *self, const char *action) {

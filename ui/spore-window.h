@@ -13,6 +13,7 @@
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
  *               that is led], add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
  *               remove-region [s path], add-link [s element], tie-link (the selected one), pick-back, pick-done
+ *               patient [s position; state, "": none]
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
  *               automatic-places; apply-generated, cancel-job

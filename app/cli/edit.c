@@ -6,6 +6,7 @@
 #include "core/author/addition.h"
 #include "core/author/edits.h"
 #include "core/author/instrument_edits.h"
+#include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
@@ -13,7 +14,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, **instrument, *output;
+  char **add, **soft, **set, **hold, **instrument, *patient, *output;
   gboolean probe;
 } Request;
 
@@ -125,6 +126,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   if (request->soft && !make_soft(cli, document, request->soft, done, error)) return FALSE;
   for (char **setting = request->set; setting && *setting; setting++)
     if (!set(document, *setting, changed, error)) return FALSE;
+  if (request->patient && !spore_edit_lay_patient(document, request->patient, error)) return FALSE;
+  if (request->patient) note(changed, spore_document_section(document, "environment"));
   for (char **name = request->hold; name && *name; name++) {
     SporeObject *pin = hold(document, *name, error);
     if (!pin) return FALSE;
@@ -193,6 +196,12 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        "BODY"},
       {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &request.set,
        N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
+      {"patient", 0, 0, G_OPTION_ARG_STRING, &request.patient,
+       N_("Turn gravity as it pulls on a patient who lies so: supine, prone, left_lateral, right_lateral, "
+          "trendelenburg (head 15 degrees down), reverse_trendelenburg, upright; in the axes that RAS and LPS files "
+          "are "
+          "imported to: x right, y to the head, z to the back"),
+       "POSITION"},
       {"hold", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.hold,
        N_("Pin a body where it lies lowest and farthest behind, so that it does not fall (may be repeated)"), "BODY"},
       {"instrument", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.instrument,
@@ -206,11 +215,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  gboolean any = request.add || request.soft || request.set || request.hold || request.instrument || request.probe;
+  gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
+                 request.probe;
   if (status == SPORE_EXIT_DONE && !any)
-    status =
-        spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --hold, --instrument or "
-                          "--probe; give one of them"));
+    status = spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
+                               "--instrument or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
@@ -218,6 +227,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.set);
   g_strfreev(request.hold);
   g_strfreev(request.instrument);
+  g_free(request.patient);
   g_free(request.output);
   return status;
 }

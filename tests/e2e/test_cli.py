@@ -1459,6 +1459,9 @@ def a_needle_and_a_suction_tube_of_the_library_work():
 def an_instrument_is_refused_with_a_remedy():
     """What is no instrument of the library, no place, or too near to what it points at."""
     bar = slim_bar()
+    refuses("edit", bar, "--patient", "seated", says=["supine, prone, left_lateral"])
+    laid = report("edit", bar, "--patient", "supine", "-o", WORK / "laid.spore")
+    assert laid["changed"] == ["environment"] and 'gravity="0 0 9.81"' in (WORK / "laid.spore").read_text(), laid
     refuses("edit", bar, "--instrument", "graspr@0,0.1,0", says=["there is no instrument \"graspr\"", "grasper"])
     refuses("edit", bar, "--instrument", "grasper@0,0.1", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])
     refuses("edit", bar, "--instrument", "grasper@0,0.1,0@0,0.1,0@0,0,0", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])

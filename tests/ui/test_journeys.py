@@ -1965,6 +1965,28 @@ def a_plane_opens_the_view():
 
 
 @check
+def the_patient_is_laid():
+    """gravity is turned by how the patient lies, from the menu in the inspector; what is in force is marked, also when it is set by hand, and it is undone in one step."""
+    with start(two_balls("laid")) as editor:
+        ui.wait(lambda: editor.row("right"), "the scene")
+        gravity = editor.find("text", "^Gravity$")
+        editor.press(editor.find("toggle button", "^The patient lies…$"))
+        item = editor.find("menu item|push button|check box|radio button", r"^Head 15° down \(Trendelenburg\)$")
+        keep_picture(editor, "patient")
+        editor.press(item)
+        ui.wait(lambda: editor.state("patient") == "trendelenburg", "the patient to be laid")
+        ui.wait(lambda: editor.text_of(gravity) == "0 2.539 9.4757", "gravity to be turned")
+        editor.focus()
+        editor.keys("Escape")
+        editor.act("set-property", "(sss)", ("environment", "gravity", "0 0 -3"))
+        ui.wait(lambda: editor.state("patient") == "prone", "what is set by hand to be known")
+        editor.act("undo")
+        ui.wait(lambda: editor.state("patient") == "trendelenburg", "the step to be undone")
+        editor.act("undo")
+        ui.wait(lambda: editor.state("patient") == "" and editor.text_of(gravity) == "0 0 0", "the patient to be undone")
+
+
+@check
 def every_link_is_picked():
     """each kind of link that the format has is chosen in the menu and made by clicks on the bodies that it ties; it is selected, and undone in one step."""
     schema = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "schema"], check=True, capture_output=True, text=True).stdout

@@ -6,6 +6,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/region_edits.h"
+#include "core/author/patient_positions.h"
 #include "core/scene/generated.h"
 #include "ui/document/body-marks.h"
 #include "ui/document/mapping-report.h"
@@ -313,11 +314,30 @@ static void add_body(SporeInspector *self, SporeObject *body) {
   if (fidelity) add_unit(self, fidelity, body, "fidelity");
 }
 
+/* Of gravity: the positions of a patient. */
+static void add_patient(GtkBox *box) {
+  g_autoptr(GMenu) menu = g_menu_new();
+  for (const SporePatientPosition *one = spore_patient_positions; one->name; one++) {
+    g_autoptr(GMenuItem) item = g_menu_item_new(_(one->label), NULL);
+    g_menu_item_set_action_and_target(item, "win.patient", "s", one->name);
+    g_menu_append_item(menu, item);
+  }
+  GtkWidget *button = gtk_menu_button_new();
+  gtk_button_set_label(GTK_BUTTON(button), _("The patient lies…"));
+  gtk_widget_set_tooltip_text(button, _("Turns gravity, in the axes that RAS and LPS files are imported to: x to the "
+                                        "patient's right, y to the head, z to the back"));
+  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+  gtk_widget_set_halign(button, GTK_ALIGN_START);
+  gtk_container_add(GTK_CONTAINER(box), button);
+  gtk_widget_show(button);
+}
+
 /* An object alone. */
 static void add_one(SporeInspector *self, SporeObject *object) {
   g_autofree char *path = spore_object_path(object);
   GtkBox *box = spore_section_list_add(sections_of(self), _(spore_object_type(object)->label), path, NULL);
   if (box) add_object(self, box, object);
+  if (box && g_str_equal(spore_object_type(object)->element, "environment")) add_patient(box);
 }
 
 /* What was measured is told, not edited. */
