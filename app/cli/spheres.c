@@ -5,6 +5,7 @@
 #include "app/cli/generate.h"
 #include "app/cli/spheres_series.h"
 #include "core/author/generated_edits.h"
+#include "core/author/verdict.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
@@ -25,7 +26,8 @@ static void clear_request(Request *request) {
   spore_cli_options_clear(&request->options);
 }
 
-static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report) {
+static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report,
+                      SporeSpheresMode mode) {
   spore_cli_say(cli,
                 _("%zu spheres: coverage %.1f %%, outside %.1f %%, distance %.3f %% (largest %.2f %%) of the diagonal, "
                   "depth error %.3f, %.2f s\n"),
@@ -36,6 +38,8 @@ static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpher
                   ngettext("The mesh is its own image in %zu plane; so is the set.\n",
                            "The mesh is its own image in %zu planes; so is the set.\n", report->mirrors),
                   report->mirrors);
+  g_autofree char *verdict = spore_spheres_verdict(report, mode, set->count);
+  if (verdict) spore_cli_say(cli, "%s.\n", verdict);
 }
 
 static void say_sheet(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report, gboolean thick) {
@@ -120,7 +124,7 @@ static void report_set(SporeCli *cli, const SporeSpheresSource *source, const Sp
   spore_cli_spheres_members(cli, set->count, report);
   spore_cli_text(cli, "hardest", hardest);
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
-  else say_solid(cli, set, report);
+  else say_solid(cli, set, report, options->mode);
   if (hardest) spore_cli_say(cli, _("Hardest to reach of what was asked for: %s.\n"), hardest);
   if (!source->sheet && !source->curve && report->coverage < THIN)
     spore_cli_say(cli,

@@ -6,6 +6,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/generator_work.h"
+#include "core/author/verdict.h"
 #include "core/scene/schema_tables.h"
 
 static const char *const methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
@@ -156,10 +157,15 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
 
 static char *facts(const SporeGenerateWork *work) {
   const SporeSpheresReport *spheres = &work->spheres_report;
-  return g_strdup_printf(_("%zu spheres in %.1f s\nCoverage %.1f %%, outside %.1f %%\n"
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text,
+                         _("%zu spheres in %.1f s\nCoverage %.1f %%, outside %.1f %%\n"
                            "Depth error %.1f %%, distance %.2f %%"),
                          work->spheres.count, spheres->seconds, 100 * spheres->coverage, 100 * spheres->outside,
                          100 * spore_spheres_felt_error(spheres), 100 * spheres->distance_mean);
+  g_autofree char *verdict = spore_spheres_verdict(spheres, options_of(work).mode, work->spheres.count);
+  if (verdict) g_string_append_printf(text, "\n%s", verdict);
+  return g_string_free(text, FALSE);
 }
 
 const SporeGeneratorType spore_generator_spheres = {

@@ -5,6 +5,7 @@
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
 #include "core/author/generator_work.h"
+#include "core/author/verdict.h"
 #include "core/scene/schema_tables.h"
 
 static const char *const methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
@@ -208,6 +209,8 @@ static char *facts(const SporeGenerateWork *work) {
                          100 * report->volume_change);
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Surface %+.1f %%"), 100 * report->area_change);
+  g_autofree char *verdict = spore_tetrahedra_verdict(report);
+  g_string_append_printf(text, "\n%s", verdict);
   append_remarks(text, work);
   for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
     if (*report->refused[i]) {
