@@ -207,6 +207,7 @@ static void change_present(GSimpleAction *action, GVariant *state, gpointer data
   change_panel(action, state, data);
   if (g_variant_get_boolean(state)) gtk_window_fullscreen(GTK_WINDOW(data));
   else gtk_window_unfullscreen(GTK_WINDOW(data));
+  spore_viewport_set_presented(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_boolean(state));
   spore_window_show_hint(data);
 }
 

@@ -1759,6 +1759,8 @@ def the_view_has_the_whole_screen():
         editor.focus()
         editor.keys("F11")
         editor.find("label", "^F11 or Escape brings the panels back")
+        editor.find("label", "^For training and preview only$")
+        keep_picture(editor, "presented")
         ui.wait(lambda: not editor.row("ball") and editor.place(editor.find(".*", "^Viewport$"))[2] > before[2], "the panels to go")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
         editor.mouse("mousemove", x + 20, y + height - 60, "click", 1)
@@ -1766,6 +1768,7 @@ def the_view_has_the_whole_screen():
         editor.keys("F11")
         ui.wait(lambda: editor.row("ball"), "the panels")
         assert not editor.state("show-inspector"), "what was closed stays closed"
+        assert not editor.look("label", "^For training and preview only$"), "an author needs no notice"
 
 
 @check

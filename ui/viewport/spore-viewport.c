@@ -278,6 +278,10 @@ static void tool_clicked(GtkWidget *button, SporeViewport *self) {
   light_tool(self);
 }
 
+void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
+  gtk_widget_set_visible(self->notice, presented);
+}
+
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
   spore_viewport_end_drag(self);
   if (picking) spore_viewport_end_measuring(self);
@@ -375,6 +379,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, led_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, cut_slider);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, notice);
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_cut_moved);

@@ -43,6 +43,8 @@ typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEW
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is being opened: the welcome is hidden. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
+/* The view is shown alone, to others than its author: it says what it is not for. */
+void spore_viewport_set_presented(SporeViewport *self, gboolean presented);
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
 /* Uses the Edit tool on all regions of the object that holds this one, which is chosen first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
