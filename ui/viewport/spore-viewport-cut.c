@@ -33,6 +33,11 @@ SporeClip spore_viewport_clip(SporeViewport *self) {
   return self->cut_turned ? (SporeClip){spore_vec3_scale(-1, normal), -clip.distance} : clip;
 }
 
+void spore_viewport_clip_picking(SporeViewport *self) {
+  SporeClip clip = spore_viewport_clip(self);
+  spore_stage_set_clip(self->stage, &clip);
+}
+
 /* The plane goes over what is there now; what moves later does not take it along. */
 void spore_viewport_set_cut(SporeViewport *self, const char *name) {
   guint cut = 0;

@@ -18,6 +18,7 @@ static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
   SporeVec3 origin, direction;
   if (!self->stage) return 0;
   spore_camera_ray(&self->camera, x, y, width_of(self), height_of(self), &origin, &direction);
+  spore_viewport_clip_picking(self);
   return spore_stage_pick(self->stage, origin, direction, point);
 }
 

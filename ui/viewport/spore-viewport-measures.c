@@ -207,6 +207,7 @@ gboolean spore_viewport_measures_press(SporeViewport *self, double x, double y) 
   if (!draft->gauge || !self->stage) return FALSE;
   spore_camera_ray(&self->camera, x, y, gtk_widget_get_allocated_width(self->area),
                    gtk_widget_get_allocated_height(self->area), &origin, &direction);
+  spore_viewport_clip_picking(self);
   if (!spore_stage_pick_hold(self->stage, origin, direction, &draft->places[draft->count], &draft->holds[draft->count]))
     return FALSE;
   if (++draft->count == draft->gauge->place_count) finish(self);

@@ -137,6 +137,8 @@ void spore_viewport_popup(SporeViewport *self, const GdkEvent *event, gboolean o
 
 /* spore-viewport-cut.c: the cut plane. */
 SporeClip spore_viewport_clip(SporeViewport *self);
+/* What the plane hides now is not picked. To be called before a pick: the picture may be older. */
+void spore_viewport_clip_picking(SporeViewport *self);
 void spore_viewport_cut_moved(GtkRange *slider, SporeViewport *self);
 
 /* spore-viewport-measures.c: distances, angles and volumes. */

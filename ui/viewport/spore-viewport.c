@@ -104,7 +104,6 @@ static void render(SporeViewport *self, int width, int height) {
   if (!self->stale) return;
   SporeRenderOptions options = {width, height, .grid = TRUE, .antialias = !spore_offscreen_is_software(self->offscreen),
                                 .clip = spore_viewport_clip(self)};
-  spore_stage_set_clip(self->stage, &options.clip);
   g_autoptr(GError) error = NULL;
   gint64 start = g_get_monotonic_time();
   cairo_surface_flush(self->pixels);
