@@ -1625,6 +1625,7 @@ def ends_within_a_long_step():
         with start(long_step()) as editor:
             ui.wait(lambda: editor.row("sheet"), "the scene")
             editor.act("step")
+            ui.wait(lambda: editor.time_s() == 0, "the world to be made")
             begun = processor_s(editor.process)
             ui.wait(lambda: processor_s(editor.process) > begun + 1, "the step to be well under way")
             assert editor.time_s() == 0
