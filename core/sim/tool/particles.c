@@ -138,7 +138,7 @@ double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_
 
 /* A cut opens the wound, coagulation closes it; where both come in one step, it is closed. */
 static bool bleeds(const SporeWorld *world, SporeEmitter *emitter) {
-  SporeBodyMarks now = spore_world_body_marks(world, emitter->source);
+  SporeBodyMarks now = world->bodies[emitter->source].marks;
   if (now.cut > emitter->marks.cut) emitter->bleeds = true;
   if (now.coagulated > emitter->marks.coagulated) emitter->bleeds = false;
   emitter->marks = now;
