@@ -1154,7 +1154,7 @@ def hanging(name, density, links='<spring name="tie" body_a="organ" body_b="extr
 
 def unfelt(element):
     """Whether advise found nobody to feel it: an effect, unless the clock says that nothing is saved by that."""
-    verdict = element["verdict"] == "effect" or "not worth it" in element["reason"]
+    verdict = element["verdict"] == "effect" or any(said in element["reason"] for said in ("not worth it", "saves nothing"))
     return verdict and element["influence"] <= element["noise_floor"]
 
 
