@@ -12,7 +12,7 @@
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: touching bodies overlap by less */
 #define WARNED_OVERLAP 0.5
-/* Of the speed that a contact stops: what the author gave it, and what it falls at. */
+/* Of the speed that a contact stops: what the author gave it, and what it falls at, or jostles at as a fluid. */
 #define NOTED_SPEED 0.1
 #define NOTED_FALL 0.5
 
@@ -216,7 +216,8 @@ static void check_impacts(const Start *start, const SporeSimulation *simulation)
     if (index == SPORE_NO_BODY || !spore_world_stopping_speed(simulation->world, index, &stopping)) continue;
     double fall = isfinite(start->drops[i]) ? 2 * spore_vec3_length(start->gravity) * start->drops[i] : 0;
     double comes = sqrt(stopping.moves * stopping.moves + fall);
-    if (stopping.moves <= NOTED_SPEED * stopping.stops && comes <= NOTED_FALL * stopping.stops) continue;
+    double noted = particles_of(body) ? NOTED_FALL : NOTED_SPEED;
+    if (stopping.moves <= noted * stopping.stops && comes <= NOTED_FALL * stopping.stops) continue;
     const char *other = spore_world_body_name(simulation->world, stopping.other);
     double factor = pow(comes / stopping.stops, 2); /* not finite where contacts have no stiffness */
     g_autofree char *stiffer =
