@@ -2227,6 +2227,17 @@ def which_instrument_is_led():
         ui.wait(lambda: editor.time_s() > before and picture_sum(editor) != where, "the keys to lead it")
 
 
+def press_until(editor, words, condition, what):
+    """Presses, and again where that had no effect: on a busy machine a press is lost now and then before it comes to the view."""
+    for left in reversed(range(4)):
+        editor.mouse(*words)
+        try:
+            return ui.wait(condition, what, 15)
+        except AssertionError:
+            if not left:
+                raise
+
+
 @check
 def a_clamp_is_opened_again():
     """a clamp that has closed on tissue stays closed, also when the mouse takes it and lets go, until Ctrl with the right button opens it, or O."""
@@ -2240,10 +2251,10 @@ def a_clamp_is_opened_again():
         editor.focus()
         ui.wait(lambda: (editor.time_s() or 0) > 1.9, "the track to close it and let go", 120)
         assert editor.hud(opening) < 30
-        editor.mouse("mousemove", x + width // 2, y + height // 2, "keydown", "Control_L", "click", 3, "keyup", "Control_L")
-        ui.wait(lambda: editor.hud(opening) == 63, "Ctrl and the right button to open it", 60)
-        editor.mouse("mousedown", 3)
-        ui.wait(lambda: editor.hud(opening) < 30, "the right button to close it", 60)
+        middle = ("mousemove", x + width // 2, y + height // 2)
+        press_until(editor, (*middle, "keydown", "Control_L", "click", 3, "keyup", "Control_L"),
+                    lambda: editor.hud(opening) == 63, "Ctrl and the right button to open it")
+        press_until(editor, ("mouseup", 3, "mousedown", 3), lambda: editor.hud(opening) < 30, "the right button to close it")
         let_time_pass(editor, 0.3)
         editor.mouse("mouseup", 3)
         let_time_pass(editor, 0.3)
