@@ -62,6 +62,9 @@ void spore_export_attribute(GString *text, const char *name, const double *value
 gboolean spore_export_place(const SporeWorld *world, guint body, const double *points, gsize count, double **places,
                             GError **error);
 
+/* Inertia of a rigid body at q (7), kg m^2, in the frame of the body. */
+SporeMat3 spore_export_inertia(const SporeModel *rigid, const double *q);
+
 /* Says that there is nothing to write. Returns FALSE. */
 gboolean spore_export_refuse_empty(const SporeExport *export, GError **error);
 

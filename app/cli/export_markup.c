@@ -1,4 +1,4 @@
-/* What formats of XML share that hold bodies: numbers, and places in a body. */
+/* What formats of XML share that hold bodies: numbers, places in a body, and inertia. */
 #include <string.h>
 
 #include "app/cli/export.h"
@@ -20,4 +20,9 @@ gboolean spore_export_place(const SporeWorld *world, guint body, const double *p
   *places = g_memdup2(mapping.points, 3 * count * sizeof *points);
   spore_mapping_clear(&mapping);
   return TRUE;
+}
+
+SporeMat3 spore_export_inertia(const SporeModel *rigid, const double *q) {
+  SporeMat3 turn = spore_quat_to_mat3(spore_quat_load(q + 3));
+  return spore_mat3_multiply(spore_mat3_transpose(turn), spore_mat3_multiply(rigid->type->inertia(rigid, q), turn));
 }

@@ -81,10 +81,9 @@ static gboolean add_collision(Model *model, guint body, GError **error) {
 /* Mass and inertia, in the frame of the element: its origin is the centre of mass. */
 static void add_inertia(Model *model, guint body, const double *q) {
   const SporeModel *rigid = spore_world_body_model(model->simulation->world, body);
-  SporeMat3 turn = spore_quat_to_mat3(spore_quat_load(q + 3));
   const double mass = spore_model_total_mass(rigid);
-  const double *i =
-      spore_mat3_multiply(spore_mat3_transpose(turn), spore_mat3_multiply(rigid->type->inertia(rigid, q), turn)).m;
+  const SporeMat3 inertia = spore_export_inertia(rigid, q);
+  const double *i = inertia.m;
   GString *text = model->inside[body];
   g_string_append(text, "<freejoint/>\n<inertial pos=\"0 0 0\"");
   spore_export_attribute(text, "mass", &mass, 1);

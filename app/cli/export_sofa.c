@@ -97,9 +97,7 @@ static void write_rigid_state(Sofa *sofa, const double *q, const double *v) {
 
 /* Mass, volume, and the inertia of a unit of mass, in the frame of the body. */
 static void write_rigid_mass(Sofa *sofa, const SporeModel *model, const double *q) {
-  SporeMat3 turn = spore_quat_to_mat3(spore_quat_load(q + 3));
-  SporeMat3 inertia =
-      spore_mat3_multiply(spore_mat3_transpose(turn), spore_mat3_multiply(model->type->inertia(model, q), turn));
+  const SporeMat3 inertia = spore_export_inertia(model, q);
   double mass[11] = {spore_model_total_mass(model), 1};
   for (guint i = 0; i < 9; i++) mass[2 + i] = inertia.m[i] / mass[0];
   g_string_append(sofa->text, "<UniformMass");

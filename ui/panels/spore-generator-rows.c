@@ -75,13 +75,12 @@ static GtkWidget *new_editor(SporeGeneratorRows *self, const SporeParameter *par
 }
 
 static void add_row(SporeGeneratorRows *self, const SporeParameter *parameter, const char *text) {
-  gboolean length = g_str_equal(parameter->unit, "m");
   gboolean share = parameter->type == SPORE_REAL && *parameter->unit == '\0';
-  Row row = {.parameter = parameter, .scale = length ? 1e3 : share ? 100 : 1};
+  Row row = {.parameter = parameter, .scale = share ? 100 : spore_unit_scale(parameter->unit)};
   row.editor = new_editor(self, parameter, row.scale);
   if (!row.editor) return; /* places are picked in the view */
   g_autofree char *plain = text ? g_strdup(text) : spore_label_of(parameter->name);
-  g_autofree char *unit = length ? g_strdup("mm") : share ? g_strdup("%") : spore_unit_label(parameter->unit);
+  g_autofree char *unit = share ? g_strdup("%") : spore_unit_label(parameter->unit);
   g_autofree char *labelled = *unit ? g_strdup_printf("%s, %s", plain, unit) : g_strdup(plain);
   GtkWidget *label = gtk_label_new(labelled);
   gtk_label_set_xalign(GTK_LABEL(label), 0);

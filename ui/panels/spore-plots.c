@@ -104,9 +104,6 @@ static Group *group_of(SporePlots *self, const SporeColumn *column) {
   return group;
 }
 
-/* Lengths are shown in mm, as everywhere in the window; tables keep metres. */
-static gboolean is_length(const Group *group) { return g_str_equal(group->unit, "m"); }
-
 /* "Energy [J]"; of a group of one part, that too: "Contacts: depth [mm]". */
 static void name_group(Group *group, const SporeColumn *columns) {
   const SporeQuantity *quantity = &spore_quantities[group->quantity];
@@ -117,7 +114,8 @@ static void name_group(Group *group, const SporeColumn *columns) {
   GString *label = g_string_new(_(name));
   if (part > rest && is_of_one(group, columns)) g_string_append_printf(label, " %.*s", (int)(part - rest - 1), rest);
   if (parts == 1 && quantity->part_count > 1) g_string_append_printf(label, ": %s", part);
-  if (*group->unit) g_string_append_printf(label, " [%s]", is_length(group) ? "mm" : group->unit);
+  g_autofree char *unit = spore_unit_label(group->unit);
+  if (*unit) g_string_append_printf(label, " [%s]", unit);
   group->label = g_string_free(label, FALSE);
 }
 
@@ -193,7 +191,7 @@ static gsize copy_values(SporePlots *self, SporeSession *session, const Group *g
   for (guint i = 0; i < group->columns->len; i++) {
     gsize column = g_array_index(group->columns, gsize, i);
     double *values = spore_session_numbers(session, column, 1, &rows);
-    for (gsize r = 0; is_length(group) && r < rows; r++) values[r] *= 1e3;
+    for (gsize r = 0; r < rows; r++) values[r] *= spore_unit_scale(group->unit); /* tables keep metres */
     least = MIN(least, rows); /* the run may have gone on, or begun anew, in between */
     take_values(self, values, rows, column, columns, sizes);
   }

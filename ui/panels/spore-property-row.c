@@ -32,7 +32,7 @@ static const SporeParameter *parameter_of(SporePropertyRow *self) {
 }
 
 /* Lengths are shown in mm, as everywhere in the window. */
-static gboolean is_length(const SporeParameter *parameter) { return g_str_equal(parameter->unit, "m"); }
+static gboolean is_length(const SporeParameter *parameter) { return spore_unit_scale(parameter->unit) != 1; }
 
 static gboolean is_colour(const SporeParameter *parameter) {
   return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
@@ -310,7 +310,8 @@ void spore_property_row_refresh(SporePropertyRow *self) {
 /* Label and hints, from the table. */
 
 static char *range_text(const SporeParameter *parameter, const char *unit) {
-  double scale = is_length(parameter) ? 1e3 : 1, least = parameter->minimum * scale, most = parameter->maximum * scale;
+  double scale = spore_unit_scale(parameter->unit), least = parameter->minimum * scale,
+         most = parameter->maximum * scale;
   gboolean low = isfinite(least), high = isfinite(most);
   if (parameter->type != SPORE_REAL && parameter->type != SPORE_INTEGER && parameter->type != SPORE_VECTOR) return NULL;
   if (low && high) return g_strdup_printf(_("From %g to %g %s"), least, most, unit);
@@ -326,7 +327,7 @@ static void describe(SporePropertyRow *self) {
                                       N_("A running simulation starts again from time 0")};
   const SporeParameter *parameter = parameter_of(self);
   g_autofree char *label = spore_label_of(parameter->name);
-  g_autofree char *unit = is_length(parameter) ? g_strdup("mm") : spore_unit_label(parameter->unit);
+  g_autofree char *unit = spore_unit_label(parameter->unit);
   g_autofree char *range = range_text(parameter, unit);
   g_autofree char *tooltip =
       g_strconcat(parameter->doc && *parameter->doc ? _(parameter->doc) : label, range ? "\n" : NULL, range, NULL);

@@ -67,7 +67,6 @@ gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimula
 }
 
 int spore_panes_width(const SporePanes *panes) { return panes->width * (int)panes->row->len; }
-int spore_panes_height(const SporePanes *panes) { return panes->height; }
 const char *spore_panes_renderer(const SporePanes *panes) { return spore_offscreen_renderer(panes->offscreen); }
 
 const guint8 *spore_panes_draw(SporePanes *panes, GError **error) {

@@ -16,8 +16,7 @@ void spore_panes_free(SporePanes *panes); /* NULL is allowed */
  * by name; NULL: see spore_stage_camera. FALSE with a GError: no such camera. */
 gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimulation *simulation, const char *camera,
                          const SporeStageOptions *shown, GError **error);
-int spore_panes_width(const SporePanes *panes); /* of the whole picture */
-int spore_panes_height(const SporePanes *panes);
+int spore_panes_width(const SporePanes *panes);            /* of the whole picture */
 const char *spore_panes_renderer(const SporePanes *panes); /* GL_RENDERER */
 /* The simulations as they are now: rows of 4 * width bytes, as spore_renderer_draw gives them. Valid until the next
  * call; NULL with a GError. */
