@@ -193,13 +193,21 @@ class Editor:
             return None
 
     def look(self, role, name, showing=True):
+        return next((node for node, _ in self._named(role, name, showing)), None)
+
+    def says(self, role, name, showing=True):
+        """What the regular expression finds in the name of the first such widget, or None. The name is read once: between `look` and
+        `name_of` a widget can go, or say something else."""
+        return next((found for _, found in self._named(role, name, showing)), None)
+
+    def _named(self, role, name, showing):
         for node in self.nodes(role, showing):
             try:
-                if re.search(name, self.name_of(node)):
-                    return node
+                found = re.search(name, self.name_of(node))
             except Exception:  # it went while we looked
                 continue
-        return None
+            if found:
+                yield node, found
 
     def name_of(self, node):
         name = node.get_name() or ""

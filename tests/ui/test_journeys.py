@@ -2670,8 +2670,8 @@ def what_the_method_takes_is_shown():
         return "%.3g" % (100 * body["damping_a_second"])
 
     def figure(editor):
-        label = editor.look("label", said, showing=False)
-        return label and re.match(said, editor.name_of(label))[1]
+        found = editor.says("label", said, showing=False)
+        return found and found[1]
 
     with start(path) as editor:
         editor.act("select", "s", "bodies/ball")
