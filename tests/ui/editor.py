@@ -51,16 +51,23 @@ def run_privately(script, arguments):
 
 
 def wait(condition, what, seconds=PATIENCE_S):
-    """Waits until condition() is true and gives what it gave; the buses are served meanwhile."""
+    """Waits until condition() is true and gives what it gave; the buses are served meanwhile. A condition that meets a widget which
+    goes away just then, or is half made, has not come true yet; one that meets nothing else in the end fails with what it met."""
     from gi.repository import GLib
     start = time.monotonic()
     while True:
-        answer = condition()
+        met = None
+        try:
+            answer = condition()
+        except AssertionError:
+            raise
+        except Exception as error:
+            answer, met = None, error
         if answer:
             return answer
         waited = time.monotonic() - start
         if waited > seconds:
-            raise AssertionError(f"waited {seconds} s in vain for {what}")
+            raise AssertionError(f"waited {seconds} s in vain for {what}") from met
         while GLib.MainContext.default().iteration(False):
             pass
         time.sleep(min(max(0.05, 0.1 * waited), 0.5))  # to ask is work, for the editor too
