@@ -8,6 +8,7 @@
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+#include <time.h>
 
 #include "tests/bench/field/cases.h"
 
@@ -15,6 +16,7 @@ typedef struct Rates {
   System *s;
   Lanes *f;
   long evaluations;
+  clock_t end;
 } Rates;
 
 /* y is x of all nodes, then v. */
@@ -42,7 +44,8 @@ static int rates(realtype t, N_Vector state, N_Vector rate, void *data) {
     for (size_t e = 0; e < 3; e++) to[3 * (n + i) + e] = a[e];
   }
   r->evaluations++;
-  return 0;
+  return clock() > r->end ? -1
+                          : 0; /* within a frame too: where elements turn over its steps grow as short as it likes */
 }
 
 static void *begin(const CaseRun *run, SUNContext context, N_Vector y, Rates *r) {
@@ -68,18 +71,18 @@ static void *begin(const CaseRun *run, SUNContext context, N_Vector y, Rates *r)
 /* What the solvers hold is left to the end of the program. */
 int main(int argc, char **argv) {
   CaseRun run = case_begin(argc, argv);
-  Rates r = {case_system(&run, argc > 1 ? argv[1] : ""), NULL, 0};
+  double limit_s = case_number(&run, "limit", 10);
+  Rates r = {case_system(&run, argc > 1 ? argv[1] : ""), NULL, 0, clock() + (clock_t)(limit_s * CLOCKS_PER_SEC)};
   SUNContext context;
   if (!r.s || SUNContext_Create(NULL, &context)) return 2;
   r.f = clear_memory(r.s->node_count + 1, sizeof *r.f);
   N_Vector y = N_VNew_Serial((sunindextype)(6 * r.s->node_count), context);
   void *cvode = begin(&run, context, y, &r);
-  double limit_s = case_number(&run, "limit", 10);
   while (case_next_frame(&run)) {
     realtype reached;
     int status = CVode(cvode, run.time * run.frame / run.frames, y, &reached, CV_NORMAL);
     case_stop(&run);
-    if (status < 0 || run.cpu_s > limit_s) {
+    if (status < 0) {
       fprintf(stderr, "status %d after %g s of work\n", status, run.cpu_s);
       return 1;
     }
