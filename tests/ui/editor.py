@@ -261,6 +261,10 @@ class Editor:
                     return label.get_name()
         return None
 
+    def figure(self, pattern):
+        """The number that `hud` gives, as soon as it is there."""
+        return wait(lambda: [number for number in [self.hud(pattern)] if number is not None], f"the figure {pattern}")[0]
+
     def hud(self, pattern, kind=float):
         """First group of the pattern in the figures over the viewport, as a number or what else `kind` makes; None: not there."""
         for node in self.nodes("label"):
