@@ -938,6 +938,9 @@ def organs_of_a_label_map():
         editor.find("label", r"^liver, 5\.12 ml, 20 × 16 × 16 mm$", showing=False)
         use = editor.find("combo box", "^label 7$", showing=False)
         assert [editor.chosen(editor.find("combo box", name, showing=False)) for name in ("^liver$", "^label 7$")] == ["Soft", "Around"]
+        editor.set_number(editor.find("spin button", "^Tetrahedra$", showing=False), 300)
+        editor.find("label", r"(?s)^2 organs, ", 60)
+        ui.wait(lambda: editor.enabled("make-labels"), "the list")
         editor.press(editor.find("push button", "^Mesh$"))
         editor.find("label", r"(?s)tetrahedra in.*Shared faces: 0.*liver: \d+ cells \(100 %\).*Around them: 1 unmovable", 60)
         editor.choose(use, "Soft")
@@ -976,6 +979,7 @@ def organs_of_a_label_map():
         editor.press(editor.find("push button", "^Tetrahedra…$"))
         editor.find("label", r"(?s)^2 organs, ", 60)
         editor.choose(editor.find("combo box", "^label 7$", showing=False), "Soft")
+        editor.set_number(editor.find("spin button", "^Tetrahedra$", showing=False), 300)
         editor.choose(editor.find("combo box", "^Make$", showing=False), "One body")
         ui.wait(lambda: editor.enabled("apply-generated"), "the list")
         editor.act("apply-generated")
@@ -1722,7 +1726,7 @@ def every_model_in_turn():
                     continue
                 for value in (parameter["minimum"], parameter["maximum"], parameter["default"]):
                     editor.act("set-property", "(sss)", (f"bodies/ball/mechanical/{name}", parameter["name"], str(value)))
-                    time.sleep(0.1)
+                    time.sleep(0.03)
                 for _ in range(3):
                     editor.act("undo")
             editor.act("pause")
