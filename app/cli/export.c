@@ -1,77 +1,47 @@
 /* spore export: a scene for other programs, and for running it without SPORE. */
-#include "app/cli/export.h"
-
 #include <glib/gi18n.h>
 #include <string.h>
 
 #include "app/cli/scene.h"
+#include "ui/export/export.h"
 
 typedef struct ExportOptions {
   char *format, *output, *time, *every;
   SporeSceneOptions scene;
 } ExportOptions;
 
-/* What a format shows of a run. */
-typedef enum ExportMoments {
-  EXPORT_NO_MOMENT,  /* the scene as such: neither --time nor --every */
-  EXPORT_ONE_MOMENT, /* --time */
-  EXPORT_SERIES      /* both */
-} ExportMoments;
+#define FILES_SAID 4 /* one by one */
 
-/* One format: its name, what it is, and what writes it. */
-typedef struct ExportFormat {
-  const char *name;
-  ExportMoments moments;
-  const char *doc; /* translatable, for --help */
-  gboolean (*write)(SporeExport *export, GError **error);
-} ExportFormat;
+/* The run that --time and --every ask for. */
+static gboolean find_moments(SporeExport *export, const ExportOptions *options, GError **error) {
+  double dt_s = spore_object_number(spore_document_section(export->document, "solver"), "time_step");
+  gint64 steps = 0;
+  if (options->time && !spore_cli_steps(options->time, dt_s, &steps, error)) return FALSE;
+  export->steps = (guint64)steps;
+  return !options->every || spore_cli_stride(options->every, dt_s, &export->stride, error);
+}
 
-static const ExportFormat formats[] = {
-    {"bundle", EXPORT_NO_MOMENT,
-     N_("the scene and the files that its run needs in one .sporez file, which spore and the editor open like a scene"),
-     spore_export_bundle},
-    {"runtime", EXPORT_NO_MOMENT,
-     N_("the compiled scene in one file, which libspore and spore-player load without GLib and XML, and run to the "
-        "same bits"),
-     spore_export_runtime},
-    {"player", EXPORT_NO_MOMENT,
-     N_("a folder, -o FOLDER, with the runtime file and spore-player, which runs where nothing but the C library is: "
-        "./play there"),
-     spore_export_player},
-    {"vtk", EXPORT_SERIES,
-     N_("a series over time that ParaView opens, -o F.pvd or a folder: surfaces, tetrahedra with displacement and "
-        "strain, lines, particles, all with velocities"),
-     spore_export_vtk},
-    {"gltf", EXPORT_SERIES,
-     N_("one .glb file: surfaces with materials; over time, rigid bodies as tracks, others as morph targets of few key "
-        "frames"),
-     spore_export_gltf},
-    {"obj", EXPORT_ONE_MOMENT,
-     N_("the surfaces at a moment, in metres: an object for each body, and F.mtl with the colours"), spore_export_obj},
-    {"ply", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh with colours"), spore_export_ply},
-    {"stl", EXPORT_ONE_MOMENT, N_("the surfaces at a moment, in metres: one mesh"), spore_export_stl},
-    {"mjcf", EXPORT_ONE_MOMENT, N_("rigid bodies at a moment for MuJoCo 2.2: spheres, masses, springs, ball joints"),
-     spore_export_mjcf},
-    {"sofa", EXPORT_NO_MOMENT,
-     N_("the start of the scene for SOFA (.scn): rigid bodies, tetrahedra and springs, with masses, spheres and pins"),
-     spore_export_sofa},
-};
-
-static gboolean export_scene(SporeExport *export, const char *scene, const SporeSceneOptions *options,
-                             const ExportFormat *format, GError **error) {
+static gboolean export_scene(SporeCli *cli, SporeExport *export, const char *scene, const ExportOptions *options,
+                             const SporeExportFormat *format, GError **error) {
   SporeTrack input = {0};
+  SporeDocument *document = NULL;
   if (spore_cli_has_room(export->output, scene, error) &&
-      (!options->input || spore_cli_read_track(options->input, &input, error)))
-    export->document = spore_cli_load(export->cli, scene, options, error);
-  export->input = options->input ? &input : NULL;
-  gboolean done = export->document && format->write(export, error);
+      (!options->scene.input || spore_cli_read_track(options->scene.input, &input, error)))
+    document = spore_cli_load(cli, scene, &options->scene, error);
+  export->document = document;
+  export->input = options->scene.input ? &input : NULL;
+  gboolean done = document && find_moments(export, options, error) && spore_export_run(export, format, error);
   spore_track_clear(&input);
+  export->document = NULL, export->input = NULL;
+  g_clear_pointer(&document, spore_document_free);
   return done;
 }
 
-static gboolean check_moments(const ExportOptions *options, const ExportFormat *format, GError **error) {
+static gboolean check_moments(const ExportOptions *options, const SporeExportFormat *format, GError **error) {
   const char *option = options->every ? "--every" : "--time";
-  ExportMoments asked = options->every ? EXPORT_SERIES : options->time ? EXPORT_ONE_MOMENT : EXPORT_NO_MOMENT;
+  SporeExportMoments asked = options->every  ? SPORE_EXPORT_SERIES
+                             : options->time ? SPORE_EXPORT_ONE_MOMENT
+                                             : SPORE_EXPORT_NO_MOMENT;
   if (asked > format->moments)
     return spore_error_raise(error, SPORE_ERROR_INPUT, option,
                              _("format %s has no such thing; expected a format that shows moments of a run; leave it "
@@ -82,35 +52,104 @@ static gboolean check_moments(const ExportOptions *options, const ExportFormat *
                            _("no time to run is given; expected --time S beside it; add that"));
 }
 
-static int run_export(SporeCli *cli, const char *scene, const ExportOptions *options, const ExportFormat *format) {
-  SporeExport export = {.cli = cli, .output = options->output, .time = options->time, .every = options->every};
+/* A series is many files: people are told of the last one, which names the others. */
+static void say_written(SporeCli *cli, const SporeExport *export) {
+  const SporeExported *all = (const SporeExported *)(gconstpointer) export->written->data;
+  guint count = export->written->len;
+  gsize bytes = 0;
+  for (guint i = 0; i < count; i++) bytes += all[i].bytes;
+  if (count > FILES_SAID) {
+    spore_cli_say(cli, _("%s: with %u other files, %zu bytes\n"), all[count - 1].file, count - 1, bytes);
+    return;
+  }
+  for (guint i = 0; i < count; i++) spore_cli_say(cli, _("%s: %zu bytes\n"), all[i].file, all[i].bytes);
+}
+
+static void report_written(SporeCli *cli, const SporeExport *export) {
+  spore_cli_open_array(cli, "written");
+  for (guint i = 0; i < export->written->len; i++) {
+    const SporeExported *exported = &g_array_index(export->written, SporeExported, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "file", exported->file);
+    spore_cli_count(cli, "bytes", (gint64)exported->bytes);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
+  say_written(cli, export);
+}
+
+static void report_motions(SporeCli *cli, const GArray *motions) {
+  spore_cli_open_array(cli, "animation");
+  for (guint i = 0; i < motions->len; i++) {
+    const SporeExportedMotion *motion = &g_array_index(motions, SporeExportedMotion, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "body", motion->body);
+    spore_cli_count(cli, "keys", motion->keys);
+    spore_cli_number(cli, "error_m", motion->error);
+    spore_cli_number(cli, "bound_m", motion->bound);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("%s: %u key frames for %u moments, none farther off than %.3g m; the bound is %.3g m\n"),
+                  motion->body, motion->keys, motion->moments, motion->error, motion->bound);
+  }
+  spore_cli_close_array(cli);
+}
+
+static void report_unsolved(SporeCli *cli, guint64 steps) {
+  spore_cli_count(cli, "unsolved", (gint64)steps);
+  if (steps)
+    spore_cli_say(cli, _("%llu steps were not solved as the scene is written; spore run says of which body, and why\n"),
+                  (unsigned long long)steps);
+}
+
+/* label: translated, before each sentence. */
+static void report_sentences(SporeCli *cli, const char *member, const GPtrArray *sentences, const char *label) {
+  spore_cli_open_array(cli, member);
+  for (guint i = 0; i < sentences->len; i++) {
+    spore_cli_text(cli, NULL, sentences->pdata[i]);
+    spore_cli_say(cli, "%s %s\n", label, (const char *)sentences->pdata[i]);
+  }
+  spore_cli_close_array(cli);
+}
+
+/* Members of the report, and lines for people. */
+static void report_export(SporeCli *cli, const SporeExport *export) {
+  if (export->ran) report_unsolved(cli, export->unsolved);
+  if (export->motions) report_motions(cli, export->motions);
+  report_written(cli, export);
+  report_sentences(cli, "lost", export->lost, _("lost:"));
+  report_sentences(cli, "left_out", export->left_out, _("left out:"));
+}
+
+static int run_export(SporeCli *cli, const char *scene, const ExportOptions *options, const SporeExportFormat *format) {
+  SporeExport export = {.output = options->output, .progress = spore_cli_progress(cli), .cancel = spore_cli_cancel()};
   GError *error = NULL;
   spore_export_init(&export);
-  gboolean done =
-      check_moments(options, format, &error) && export_scene(&export, scene, &options->scene, format, &error);
-  if (done) spore_export_report(&export);
+  gboolean done = check_moments(options, format, &error) && export_scene(cli, &export, scene, options, format, &error);
+  if (done) report_export(cli, &export);
   spore_export_clear(&export);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-static void list_names(const char *names[G_N_ELEMENTS(formats) + 1]) {
-  for (gsize i = 0; i < G_N_ELEMENTS(formats); i++) names[i] = formats[i].name;
-  names[G_N_ELEMENTS(formats)] = NULL;
+/* g_free the array; the last one is NULL. */
+static const char **list_names(void) {
+  guint count = 0;
+  while (spore_export_formats[count].name) count++;
+  const char **names = g_new0(const char *, count + 1);
+  for (guint i = 0; i < count; i++) names[i] = spore_export_formats[i].name;
+  return names;
 }
 
 /* The format of that name; NULL after a message. */
-static const ExportFormat *find_format(const char *name) {
-  const char *names[G_N_ELEMENTS(formats) + 1];
-  list_names(names);
+static const SporeExportFormat *find_format(const char *name) {
+  g_autofree const char **names = list_names();
   GError *error = NULL;
   int found = spore_cli_choice("--format", name, names, &error);
   if (found < 0) spore_cli_fail(error);
-  return found < 0 ? NULL : &formats[found];
+  return found < 0 ? NULL : &spore_export_formats[found];
 }
 
 static int refuse_no_format(void) {
-  const char *names[G_N_ELEMENTS(formats) + 1];
-  list_names(names);
+  g_autofree const char **names = list_names();
   g_autofree char *all = g_strjoinv(", ", (char **)names);
   return spore_cli_usage(_("spore export: no format is given; expected --format and one of %s; add it"), all);
 }
@@ -124,14 +163,14 @@ static int run(SporeCli *cli, const char *scene, const ExportOptions *options) {
   if (!options->format) return refuse_no_format();
   if (!options->output) return spore_cli_usage(_("spore export: no file to write is given; expected -o F; add it"));
   strip_slashes(options->output);
-  const ExportFormat *format = find_format(options->format);
+  const SporeExportFormat *format = find_format(options->format);
   return format ? run_export(cli, scene, options, format) : SPORE_EXIT_INPUT;
 }
 
 static char *describe_formats(void) {
   GString *text = g_string_new(_("Formats:"));
-  for (gsize i = 0; i < G_N_ELEMENTS(formats); i++)
-    g_string_append_printf(text, "\n  %-9s %s", formats[i].name, _(formats[i].doc));
+  for (const SporeExportFormat *format = spore_export_formats; format->name; format++)
+    g_string_append_printf(text, "\n  %-9s %s", format->name, _(format->doc));
   return g_string_free(text, FALSE);
 }
 

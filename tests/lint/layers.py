@@ -117,7 +117,7 @@ def include_breach(path, name, system):
             return "the kernel needs libc alone"
         if UNIX.search(name) and (kernel or pathlib.PurePath(path) in PLAYER):
             return "it builds for Windows, too"
-        return "the renderer knows no GTK" if parts[:2] == ("ui", "render") and "gtk" in name else None
+        return "it knows no GTK" if parts[:2] in (("ui", "render"), ("ui", "export")) and "gtk" in name else None
     if private_of_generate(path, name):
         return f"only {name.rsplit('/', 2)[1]}.h is for others"
     public = name in SIM_PUBLIC and parts[:2] == ("core", "sim") or str(path) == UMBRELLA

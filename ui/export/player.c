@@ -7,7 +7,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/base/memory.h"
 #include "core/io/file_batch.h"
 #include "core/io/helper.h"

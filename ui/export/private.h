@@ -1,31 +1,9 @@
-/* What the formats of `spore export` share: a format is one row of the table in export.c, and one function. */
-#ifndef SPORE_APP_CLI_EXPORT_H
-#define SPORE_APP_CLI_EXPORT_H
+/* What the formats share: a format is one row of the table in export.c, and one function. */
+#ifndef SPORE_UI_EXPORT_PRIVATE_H
+#define SPORE_UI_EXPORT_PRIVATE_H
 
-#include "app/cli/cli.h"
-#include "core/haptic/track.h"
 #include "core/scene/drawing.h"
-
-/* One export: what a format is given, and what the format has to tell. */
-typedef struct SporeExport {
-  SporeCli *cli;
-  SporeDocument *document; /* with --set, --dt and --integrator applied */
-  const SporeTrack *input; /* of --input; NULL: none was given */
-  const char *output;
-  const char *time, *every;   /* as given; NULL: not given */
-  GArray *written;            /* of SporeExported */
-  GPtrArray *lost, *left_out; /* sentences, g_free */
-} SporeExport;
-
-typedef struct SporeExported {
-  char *file;
-  gsize bytes;
-} SporeExported;
-
-void spore_export_init(SporeExport *export); /* of an export that has its cli and output */
-void spore_export_clear(SporeExport *export);
-/* Members of the report, and lines for people. */
-void spore_export_report(const SporeExport *export);
+#include "ui/export/export.h"
 
 /* Writes the export's file whole or not at all. The content stays the caller's. */
 gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error);
@@ -44,10 +22,10 @@ gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **
 
 /* What a format does with the scene at a moment. FALSE with a GError. */
 typedef gboolean (*SporeExportMoment)(gpointer data, const SporeDrawing *drawing, double time_s, GError **error);
-/* Runs the scene to --time (0: not given), and shows it at time 0 and each --every from there on, or where that is not
- * given at the end alone. Tells how much of the run was not solved. FALSE with a GError; SPORE_ERROR_CANCELLED after
- * Ctrl-C. */
-gboolean spore_export_run(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
+/* Runs the scene for the export's steps, and shows it at time 0 and each stride from there on, or where that is 0 at
+ * the end alone. Tells how much of the run was not solved. FALSE with a GError; SPORE_ERROR_CANCELLED when the cancel
+ * was asked. */
+gboolean spore_export_show(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
 /* Adds the sections of the scene that no other program knows: tools, devices, exercise and so on. links: these too. */
 void spore_export_lose_sections(SporeExport *export, gboolean links);
 /* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */

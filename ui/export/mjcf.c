@@ -3,7 +3,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/scene/schema_fields.h"
 
 /* What a body becomes. */
@@ -248,7 +248,7 @@ static void clear_model(Model *model) {
 gboolean spore_export_mjcf(SporeExport *export, GError **error) {
   Model model = {
       .export = export, .world = g_string_new(NULL), .equalities = g_string_new(NULL), .tendons = g_string_new(NULL)};
-  gboolean done = spore_export_run(export, make_model, &model, error) &&
+  gboolean done = spore_export_show(export, make_model, &model, error) &&
                   spore_export_write(export, model.text->str, model.text->len, error);
   clear_model(&model);
   spore_export_lose(export, g_strdup(_("surfaces, velocities, and the strength at which links break")));

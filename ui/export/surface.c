@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/io/file_batch.h"
 #include "core/io/surface_write.h"
 
@@ -46,7 +46,7 @@ typedef gboolean (*SurfaceWriter)(SporeExport *export, const SporeNamedSurface *
 static gboolean write_surfaces(SporeExport *export, SurfaceWriter write, gboolean colours, GError **error) {
   Surfaces surfaces = {export, g_array_new(FALSE, FALSE, sizeof(SporeNamedSurface))};
   g_array_set_clear_func(surfaces.all, clear_surface);
-  gboolean done = spore_export_run(export, take_surfaces, &surfaces, error);
+  gboolean done = spore_export_show(export, take_surfaces, &surfaces, error);
   if (done && !surfaces.all->len) done = spore_export_refuse_empty(export, error);
   done = done && write(export, (const SporeNamedSurface *)(gconstpointer)surfaces.all->data, surfaces.all->len, error);
   g_array_unref(surfaces.all);

@@ -1,7 +1,7 @@
 /* spore export --format bundle: the scene with what its runs need, in one zip. */
 #include <glib/gi18n.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/io/bundle.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/pruned.h"
@@ -13,7 +13,7 @@ static gsize text_size(const SporeDocument *document) {
 }
 
 static gboolean write_pruned(SporeExport *export, SporeDocument *pruned, GError **error) {
-  g_autoptr(GByteArray) content = spore_bundle_format(pruned, export->output, spore_cli_progress(export->cli), error);
+  g_autoptr(GByteArray) content = spore_bundle_format(pruned, export->output, export->progress, error);
   if (!content || !spore_export_write(export, content->data, content->len, error)) return FALSE;
   gsize before = text_size(export->document), after = text_size(pruned);
   spore_export_leave_out(export, g_strdup_printf(_("comments, settings of generators, figures of studies and what "

@@ -1,14 +1,14 @@
 /* spore export --format runtime: the compiled scene in one file. */
 #include <glib/gi18n.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/base/memory.h"
 #include "core/scene/compile_runtime.h"
 
 gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **error) {
   g_autoptr(GPtrArray) undrawn = g_ptr_array_new_with_free_func(g_free);
   gpointer content =
-      spore_document_format_runtime(export->document, export->input, spore_cli_cancel(), undrawn, size, error);
+      spore_document_format_runtime(export->document, export->input, export->cancel, undrawn, size, error);
   for (guint i = 0; i < undrawn->len; i++)
     spore_export_lose(export, g_strdup_printf(_("%s: it has no visual mesh, and what SPORE draws in place of one "
                                                 "is not in the file"),

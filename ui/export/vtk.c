@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/io/file_batch.h"
 #include "core/io/vtk_write.h"
 
@@ -118,7 +118,7 @@ static gboolean add_moment(gpointer data, const SporeDrawing *drawing, double ti
 }
 
 static gboolean write_series(Series *series, GError **error) {
-  if (!open_series(series, error) || !spore_export_run(series->export, add_moment, series, error)) return FALSE;
+  if (!open_series(series, error) || !spore_export_show(series->export, add_moment, series, error)) return FALSE;
   g_autofree char *text = spore_vtk_format_series((const double *)(gconstpointer)series->times->data, series->files);
   return add_file(series, series->series, text, strlen(text), error) && spore_file_batch_commit(series->batch, error);
 }

@@ -3,7 +3,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/constraint/pin.h"
 #include "core/scene/schema_fields.h"
 #include "models/net/spring_pairs.h"
@@ -344,7 +344,7 @@ static void lose_links(SporeExport *export) {
 
 gboolean spore_export_sofa(SporeExport *export, GError **error) {
   Sofa sofa = {.export = export, .text = g_string_new(NULL)};
-  gboolean done = spore_export_run(export, write_scene, &sofa, error) &&
+  gboolean done = spore_export_show(export, write_scene, &sofa, error) &&
                   spore_export_write(export, sofa.text->str, sofa.text->len, error);
   g_string_free(sofa.text, TRUE);
   lose_links(export);

@@ -1,7 +1,7 @@
 /* What formats of XML share that hold bodies: numbers, places in a body, and inertia. */
 #include <string.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 
 void spore_export_attribute(GString *text, const char *name, const double *values, gsize count) {
   g_string_append_printf(text, " %s=\"", name);

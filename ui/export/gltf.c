@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/export.h"
+#include "ui/export/private.h"
 #include "core/io/gltf_write.h"
 
 #define BOUND 1e-3 /* of a body's diagonal: how far what lies between two keys may be from the run */
@@ -38,7 +38,7 @@ static double diagonal_of(const SporeTriangleMesh *mesh) {
 }
 
 static gboolean add_body(Film *film, const SporeDrawnPart *part, guint number, GError **error) {
-  gboolean moves = film->export->every && part->moves;
+  gboolean moves = film->export->stride && part->moves;
   SporeGltfBody gltf = {.surface = {.name = g_intern_string(part->name), .wetness = part->wetness},
                         .pose = part->framed ? part->frame : spore_pose_identity()};
   Body body = {.part = number, .framed = part->framed, .whole = TRUE};
@@ -64,7 +64,7 @@ static gboolean add_bodies(Film *film, const SporeDrawing *drawing, GError **err
     const SporeDrawnPart *part = spore_drawing_part(drawing, i);
     if (part->smoke) {
       spore_export_lose(film->export, g_strdup_printf(_("%s: smoke has no surface"), part->name));
-    } else if (part->liquid && film->export->every) {
+    } else if (part->liquid && film->export->stride) {
       spore_export_lose(film->export,
                         g_strdup_printf(_("%s: the skin of a liquid is another one at each moment, and is "
                                           "left out of a motion"),
@@ -124,20 +124,16 @@ static gboolean stands(const GArray *poses) {
   return TRUE;
 }
 
-static void report_keys(SporeCli *cli, const char *name, const Film *film, const SporeMotionKeys *keys) {
-  spore_cli_open(cli, NULL);
-  spore_cli_text(cli, "body", name);
-  spore_cli_count(cli, "keys", keys->keys->len);
-  spore_cli_number(cli, "error_m", keys->error);
-  spore_cli_number(cli, "bound_m", keys->bound);
-  spore_cli_close(cli);
-  spore_cli_say(cli, _("%s: %u key frames for %u moments, none farther off than %.3g m; the bound is %.3g m\n"), name,
-                keys->keys->len, film->times->len, keys->error, keys->bound);
+static void clear_motion(gpointer data) { g_free(((SporeExportedMotion *)data)->body); }
+
+static void tell_keys(const Film *film, const char *name, const SporeMotionKeys *keys) {
+  const SporeExportedMotion motion = {g_strdup(name), keys->keys->len, film->times->len, keys->error, keys->bound};
+  g_array_append_val(film->export->motions, motion);
 }
 
 static void end_motion(Film *film) {
-  SporeCli *cli = film->export->cli;
-  spore_cli_open_array(cli, "animation");
+  film->export->motions = g_array_new(FALSE, FALSE, sizeof(SporeExportedMotion));
+  g_array_set_clear_func(film->export->motions, clear_motion);
   for (guint i = 0; i < film->bodies->len; i++) {
     Body *body = body_of(film, i);
     SporeGltfBody *gltf = gltf_of(film, i);
@@ -145,7 +141,7 @@ static void end_motion(Film *film) {
     if (body->keys.keys) {
       spore_motion_keys_end(&body->keys);
       gltf->keys = &body->keys;
-      report_keys(cli, gltf->surface.name, film, gltf->keys);
+      tell_keys(film, gltf->surface.name, gltf->keys);
     }
     if (!body->whole)
       spore_export_lose(film->export,
@@ -153,16 +149,15 @@ static void end_motion(Film *film) {
                                                      : _("%s: its cut; its surface stays in one piece, and stretches"),
                                         gltf->surface.name));
   }
-  spore_cli_close_array(cli);
 }
 
 static gboolean write_film(Film *film, GError **error) {
   SporeExport *export = film->export;
-  if (!spore_export_run(export, add_moment, film, error)) return FALSE;
+  if (!spore_export_show(export, add_moment, film, error)) return FALSE;
   if (!film->bodies->len) return spore_export_refuse_empty(export, error);
   end_motion(film);
   GByteArray *content = spore_gltf_format((const SporeGltfBody *)(gconstpointer)film->gltf->data, film->gltf->len,
-                                          film->times, spore_cli_cancel(), error);
+                                          film->times, export->cancel, error);
   gboolean done = content && spore_export_write(export, content->data, content->len, error);
   if (content) g_byte_array_unref(content);
   return done;

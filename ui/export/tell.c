@@ -1,0 +1,36 @@
+/* What an export tells: files that it wrote, and sentences of what is lost and left out. */
+#include <glib/gi18n.h>
+
+#include "ui/export/private.h"
+#include "core/io/scene_xml.h"
+
+gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error) {
+  if (!spore_write_file(export->output, content, size, error)) return FALSE;
+  spore_export_wrote(export, export->output, size);
+  return TRUE;
+}
+
+void spore_export_wrote(SporeExport *export, const char *file, gsize bytes) {
+  const SporeExported exported = {g_strdup(file), bytes};
+  g_array_append_val(export->written, exported);
+}
+
+void spore_export_lose(SporeExport *export, char *sentence) { g_ptr_array_add(export->lost, sentence); }
+
+void spore_export_leave_out(SporeExport *export, char *sentence) { g_ptr_array_add(export->left_out, sentence); }
+
+static void clear_exported(gpointer data) { g_free(((SporeExported *)data)->file); }
+
+void spore_export_init(SporeExport *export) {
+  export->written = g_array_new(FALSE, FALSE, sizeof(SporeExported));
+  g_array_set_clear_func(export->written, clear_exported);
+  export->lost = g_ptr_array_new_with_free_func(g_free);
+  export->left_out = g_ptr_array_new_with_free_func(g_free);
+}
+
+void spore_export_clear(SporeExport *export) {
+  g_array_unref(export->written);
+  g_ptr_array_unref(export->lost);
+  g_ptr_array_unref(export->left_out);
+  g_clear_pointer(&export->motions, g_array_unref);
+}
