@@ -126,6 +126,8 @@ static const struct {
     {"save-recording-dialog", SESSION},
     {"save-picture", BODIES},
     {"save-picture-dialog", BODIES},
+    {"export", IDLE | BODIES},
+    {"export-dialog", IDLE | BODIES},
     {"save-film", IDLE | SESSION},
     {"save-film-dialog", IDLE | SESSION},
     {"repeat-attempt", BODIES},

@@ -177,6 +177,9 @@ char *spore_window_choose_to_save(SporeWindow *self, const char *title, const ch
 /* spore-window-film.c: pictures of the view, and films of runs. */
 void spore_window_add_film_actions(SporeWindow *self);
 
+/* spore-window-export.c: the scene for other programs. */
+void spore_window_add_export_actions(SporeWindow *self);
+
 /* spore-window-mesh.c: importing meshes, and operations on them. */
 void spore_window_add_mesh_actions(SporeWindow *self);
 /* files: NULL-terminated, or NULL: none yet. */

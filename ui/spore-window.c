@@ -214,6 +214,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
   spore_window_add_film_actions(self);
+  spore_window_add_export_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
   spore_window_add_body_actions(self);

@@ -7,7 +7,8 @@
  *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
  *               save-recording-dialog, save-picture [s path], save-picture-dialog, save-film [s path],
  *               save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
- *               save-plot-dialog, close
+ *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
+ *               close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument

@@ -1263,6 +1263,49 @@ def the_view_becomes_a_picture():
 
 
 @check
+def a_scene_is_exported():
+    """each format is chosen in a dialog, with the run that it shows; the report says what was written, lost and left out; Cancel leaves nothing."""
+    scene, made = SCENES / "minimal.spore", folder("exported")
+    bundle, series = made / "scene.sporez", made / "series.pvd"
+
+    def hash_of(file):
+        told = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "run", file, "--steps", "20", "--json"], capture_output=True, text=True, check=True)
+        return json.loads(told.stdout)["state_hash"]
+
+    with start(scene) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        sensitive = lambda node: node.get_state_set().contains(editor.atspi.StateType.SENSITIVE)
+        editor.act("export-dialog")
+        time_s = editor.find("spin button", "^Simulated time, s$")
+        assert not sensitive(time_s), "a bundle shows no moment"
+        editor.press(editor.find("radio button", "^glTF$"))
+        editor.find("spin button", "^Time between moments, s$")
+        ui.wait(lambda: sensitive(time_s), "the time to be asked for")
+        editor.press(editor.find("radio button", "^OBJ$"))
+        ui.wait(lambda: not editor.look("spin button", "^Time between moments, s$"), "one moment alone")
+        keep_picture(editor, "export")
+        editor.press(inside(editor, "Export", "push button", "^Cancel$"))
+        ui.wait(lambda: not editor.look("dialog", "^Export$"), "the dialog to close")
+        editor.act("export", "(ssdd)", ("bundle", str(bundle), 0, 0))
+        editor.find("label", r"^Written\n.*scene\.sporez: \d", 60)
+        keep_picture(editor, "exported")
+        editor.press(inside(editor, "Exported", "push button", "^Close$"))
+        assert hash_of(bundle) == hash_of(scene)
+        editor.act("export", "(ssdd)", ("vtk", str(series), 0.02, 0.01))
+        editor.find("label", r"(?s)^Written\n.*series\.pvd: .*\nand \d+ other files: .*\n\nLost\n.*the links|gravity", 60)
+        editor.press(inside(editor, "Exported", "push button", "^Close$"))
+        editor.act("export", "(ssdd)", ("ply", str(made / "no folder" / "scene.ply"), 0, 0))
+        ui.wait(lambda: "No such file" in (editor.message() or ""), "the refusal of a folder that is not there")
+        editor.act("export", "(ssdd)", ("dae", str(made / "scene.dae"), 0, 0))
+        ui.wait(lambda: "no format dae" in (editor.message() or ""), "the refusal of a format")
+        editor.act("export", "(ssdd)", ("obj", str(made / "never.obj"), 3000, 0))
+        ui.wait(lambda: not editor.enabled("export"), "the job to begin")
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("export"), "the job to end")
+        assert sorted(path.name for path in made.iterdir()) == ["scene.sporez", "series", "series.pvd"]
+
+
+@check
 def a_run_becomes_a_film():
     """what was played is filmed while the window goes on; Cancel and a name of another kind leave no film."""
     if "video" not in FEATURES:

@@ -1,10 +1,10 @@
 /* spore export --format bundle: the scene with what its runs need, in one zip. */
 #include <glib/gi18n.h>
 
-#include "ui/export/private.h"
 #include "core/io/bundle.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/pruned.h"
+#include "ui/export/private.h"
 
 static gsize text_size(const SporeDocument *document) {
   gsize size = 0;
@@ -16,9 +16,10 @@ static gboolean write_pruned(SporeExport *export, SporeDocument *pruned, GError 
   g_autoptr(GByteArray) content = spore_bundle_format(pruned, export->output, export->progress, error);
   if (!content || !spore_export_write(export, content->data, content->len, error)) return FALSE;
   gsize before = text_size(export->document), after = text_size(pruned);
-  spore_export_leave_out(export, g_strdup_printf(_("comments, settings of generators, figures of studies and what "
-                                                   "named the rest: %zu bytes of the scene's text"),
-                                                 before > after ? before - after : 0));
+  if (before > after)
+    spore_export_leave_out(export, g_strdup_printf(_("comments, settings of generators, figures of studies and what "
+                                                     "named the rest: %zu bytes of the scene's text"),
+                                                   before - after));
   return TRUE;
 }
 

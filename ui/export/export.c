@@ -12,12 +12,11 @@ const SporeExportFormat spore_export_formats[] = {
         "same bits"),
      spore_export_runtime},
     {"player", SPORE_EXPORT_NO_MOMENT, NULL, N_("Player"),
-     N_("a folder, -o FOLDER, with the runtime file and spore-player, which runs where nothing but the C library is: "
-        "./play there"),
+     N_("a folder with the runtime file and spore-player, which runs where nothing but the C library is: ./play there"),
      spore_export_player},
     {"vtk", SPORE_EXPORT_SERIES, ".pvd", N_("VTK series"),
-     N_("a series over time that ParaView opens, -o F.pvd or a folder: surfaces, tetrahedra with displacement and "
-        "strain, lines, particles, all with velocities"),
+     N_("a series over time that ParaView opens, F.pvd with a folder beside it, or a folder: surfaces, tetrahedra with "
+        "displacement and strain, lines, particles, all with velocities"),
      spore_export_vtk},
     {"gltf", SPORE_EXPORT_SERIES, ".glb", N_("glTF"),
      N_("one .glb file: surfaces with materials; over time, rigid bodies as tracks, others as morph targets of few key "

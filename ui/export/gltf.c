@@ -2,8 +2,8 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/export/private.h"
 #include "core/io/gltf_write.h"
+#include "ui/export/private.h"
 
 #define BOUND 1e-3 /* of a body's diagonal: how far what lies between two keys may be from the run */
 

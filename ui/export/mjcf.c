@@ -3,8 +3,8 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/export/private.h"
 #include "core/scene/schema_fields.h"
+#include "ui/export/private.h"
 
 /* What a body becomes. */
 typedef enum Fate {

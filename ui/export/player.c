@@ -7,10 +7,10 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "ui/export/private.h"
 #include "core/base/memory.h"
 #include "core/io/file_batch.h"
 #include "core/io/helper.h"
+#include "ui/export/private.h"
 
 #define PLAYER "spore-player"
 #define SCENE "scene.run"

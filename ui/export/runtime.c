@@ -1,9 +1,9 @@
 /* spore export --format runtime: the compiled scene in one file. */
 #include <glib/gi18n.h>
 
-#include "ui/export/private.h"
 #include "core/base/memory.h"
 #include "core/scene/compile_runtime.h"
+#include "ui/export/private.h"
 
 gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **error) {
   g_autoptr(GPtrArray) undrawn = g_ptr_array_new_with_free_func(g_free);

@@ -3,11 +3,11 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/export/private.h"
 #include "core/constraint/pin.h"
 #include "core/scene/schema_fields.h"
 #include "models/net/spring_pairs.h"
 #include "models/registry.h"
+#include "ui/export/private.h"
 
 typedef struct Sofa Sofa;
 typedef struct Kind Kind;

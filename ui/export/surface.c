@@ -2,9 +2,9 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/export/private.h"
 #include "core/io/file_batch.h"
 #include "core/io/surface_write.h"
+#include "ui/export/private.h"
 
 /* An export of surfaces: what the moment gave. */
 typedef struct Surfaces {

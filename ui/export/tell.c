@@ -1,8 +1,6 @@
 /* What an export tells: files that it wrote, and sentences of what is lost and left out. */
-#include <glib/gi18n.h>
-
-#include "ui/export/private.h"
 #include "core/io/scene_xml.h"
+#include "ui/export/private.h"
 
 gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error) {
   if (!spore_write_file(export->output, content, size, error)) return FALSE;

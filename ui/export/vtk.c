@@ -7,9 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "ui/export/private.h"
 #include "core/io/file_batch.h"
 #include "core/io/vtk_write.h"
+#include "ui/export/private.h"
 
 /* A series under way. */
 typedef struct Series {

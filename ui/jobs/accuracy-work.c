@@ -4,20 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-static bool report(void *data, double fraction, const char *stage) {
-  SporeWorkPlace *place = data;
-  place->fraction = fraction;
-  return spore_progress(place->whole, fraction, stage);
-}
-
-static bool asked(void *data) {
-  const SporeWorkPlace *place = data;
-  return !spore_progress(place->whole, place->fraction, NULL);
-}
-
-void spore_work_place_init(SporeWorkPlace *place, const SporeProgress *whole) {
-  *place = (SporeWorkPlace){.whole = whole, .progress = {report, place, NULL}, .cancel = {asked, place}};
-}
+#include "ui/jobs/work-place.h"
 
 SporeAccuracyWork *spore_accuracy_work_new(const SporeDocument *document) {
   SporeAccuracyWork *work = g_new0(SporeAccuracyWork, 1);

@@ -5,16 +5,6 @@
 #include "core/author/accuracy_study.h"
 #include "core/base/progress.h"
 
-/* Where a work is, so that asking whether it is to end does not change what is said of it. */
-typedef struct SporeWorkPlace {
-  const SporeProgress *whole;
-  double fraction;
-  SporeProgress progress; /* for the work */
-  SporeCancel cancel;     /* likewise */
-} SporeWorkPlace;
-/* The place stays where it is while the work goes on. */
-void spore_work_place_init(SporeWorkPlace *place, const SporeProgress *whole);
-
 typedef struct SporeAccuracyWork {
   SporeDocument *document; /* a copy of the scene, the worker's own */
   /* What is studied; zero chooses everything. */

@@ -3,7 +3,7 @@
 
 #include <glib/gi18n.h>
 
-#include "ui/jobs/accuracy-work.h"
+#include "ui/jobs/work-place.h"
 
 SporeBudgetWork *spore_budget_work_new(const SporeDocument *document, double budget_us) {
   SporeBudgetWork *work = g_new0(SporeBudgetWork, 1);

@@ -3,6 +3,7 @@
 
 #include "ui/document/attempts.h"
 #include "ui/jobs/under-way.h"
+#include "ui/jobs/work-place.h"
 
 #define WIDTH 1280 /* of each run's picture, pixels */
 #define HEIGHT 720
@@ -23,23 +24,6 @@ void spore_film_work_add(SporeFilmWork *work, SporeTrack *input, char *input_fil
   work->input_files[work->count++] = input_file;
 }
 
-/* The last word of the progress: to ask whether to go on is to repeat it. */
-typedef struct Told {
-  const SporeProgress *progress;
-  double fraction;
-} Told;
-
-static bool tell(void *data, double fraction, const char *stage) {
-  Told *told = data;
-  told->fraction = fraction;
-  return spore_progress(told->progress, fraction, stage);
-}
-
-static bool is_cancelled(void *data) {
-  const Told *told = data;
-  return !spore_progress(told->progress, told->fraction, NULL);
-}
-
 /* Prepares the runs. *filming has those that were prepared, whatever happens. */
 static gboolean prepare(SporeFilmWork *work, SporeFilming *filming, GError **error) {
   for (guint run = 0; run < work->count; run++) {
@@ -56,9 +40,8 @@ static gboolean prepare(SporeFilmWork *work, SporeFilming *filming, GError **err
 
 gboolean spore_film_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeFilmWork *work = data;
-  Told told = {progress, 0};
-  const SporeProgress telling = {.report = tell, .data = &told};
-  const SporeCancel cancel = {is_cancelled, &told};
+  SporeWorkPlace place;
+  spore_work_place_init(&place, progress);
   SporeFilming filming = {.file = work->file,
                           .width = WIDTH,
                           .height = HEIGHT,
@@ -66,8 +49,8 @@ gboolean spore_film_work_run(gpointer data, const SporeProgress *progress, GErro
                           .fps = FPS,
                           .speed = work->speed,
                           .shown = {.surfaces = TRUE},
-                          .cancel = &cancel};
-  gboolean done = prepare(work, &filming, error) && spore_filming_run(&filming, &telling, &work->filmed, error);
+                          .cancel = &place.cancel};
+  gboolean done = prepare(work, &filming, error) && spore_filming_run(&filming, &place.progress, &work->filmed, error);
   for (guint i = 0; i < filming.count; i++) spore_simulation_free(filming.simulations[i]);
   return done;
 }
