@@ -10,7 +10,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
-from tap import check, main
+from tap import check, is_sanitized, main
 
 SPORE = os.path.abspath(sys.argv[1])
 FOLDER = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path(tempfile.mkdtemp(prefix="spore-cases-"))
@@ -99,8 +99,10 @@ def a_stiff_link_of_an_explicit_body_holds():
 def a_link_is_solved_as_far_as_doubles_go():
     """A link of 1e11 N/m on soft tissue is solved; at 1e12 the last digit of a position is more than the tolerance, which is said."""
     plate4 = pathlib.Path(__file__).resolve().parents[2] / "resources/scenes/plate4-deformed-ovary.spore"
-    arguments = ("run", plate4, "--steps", "300", "--set")
+    arguments = ("run", plate4, "--steps", "50" if is_sanitized(SPORE) else "300", "--set")
     assert run(*arguments, "links/right_cord_1/stiffness=1e11")["monitor"]["unsolved"] == []
+    if is_sanitized(SPORE):
+        return
     unsolved = run(*arguments, "links/right_cord_1/stiffness=1e12", status=(1,))["monitor"]["unsolved"]
     other = sum(entry["steps"] for entry in unsolved if "rounding" not in entry["cause"])
     assert other <= 3 and len(unsolved) > (other > 0), unsolved

@@ -357,9 +357,11 @@ def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
     def report(count, threads=1):
         return json.loads(spore("run", SCENES / "exercise-salpingectomy.spore", "-n", count, "--json", "--threads", threads).stdout)
 
-    if not is_sanitized(SPORE):
-        one, two = report(600), report(600, 2)
-        assert one["exercise"] == two["exercise"] and one["exercise"]["steps"][0]["phase"] == "done", one["exercise"]
+    one = report(600)["exercise"]
+    assert one["steps"][0]["phase"] == "done", one
+    if is_sanitized(SPORE):
+        return  # the whole takes two minutes there, and events of all kinds come in the other checks
+    assert one == report(600, 2)["exercise"]
     exercise = report(5100)["exercise"]
     assert exercise["phase"] == "done" and exercise["passed"], exercise
     times = [step["done_s"] for step in exercise["steps"]]
