@@ -38,6 +38,8 @@ static const struct {
     {"win.filter", {"<Control>f"}},
     {"win.search", {"<Control>k"}},
     {"win.open-menu", {"F10"}},
+    {"win.turn-optic(10.0)", {"<Control>bracketright"}},
+    {"win.turn-optic(-10.0)", {"<Control>bracketleft"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},
 };

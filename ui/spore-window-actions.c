@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/instrument_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
@@ -219,6 +220,15 @@ static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) 
   spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
 }
 
+static void act_turn_optic(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  SporeObject *camera = spore_viewport_scene_camera(SPORE_VIEWPORT(self->viewport));
+  if (camera &&
+      !spore_edit_turn_optic(document_of(self), camera, g_variant_get_double(parameter) * (G_PI / 180), &error))
+    spore_window_failed(self, error);
+}
+
 static void change_cut(GSimpleAction *action, GVariant *state, gpointer data) {
   spore_viewport_set_cut(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(state, NULL));
   g_simple_action_set_state(action, state);
@@ -333,6 +343,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"apply-point", act_apply_point},
       {"frame", act_frame},
       {"view", act_view, "s"},
+      {"turn-optic", act_turn_optic, "d"},
       {"cut", NULL, "s", "'none'", change_cut},
       {"cut-other-side", NULL, NULL, "false", change_cut_side},
       {"measure", act_measure, "s"},

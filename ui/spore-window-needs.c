@@ -37,6 +37,7 @@ typedef enum Need {
   DRAFT = 1 << 25,
   PICKING = 1 << 26,
   MEASURES = 1 << 27,
+  CAMERA = 1 << 28,
 } Need;
 
 /* In the order in which they are told. */
@@ -70,6 +71,7 @@ static const struct {
     {WORK, N_("nothing is being worked on")},
     {DRAFT | PICKING, N_("nothing is being picked")},
     {HANDS, N_("the scene has no instrument yet; add one")},
+    {CAMERA, N_("the scene has no camera yet; add an endoscope")},
 };
 
 /* Those that need something. */
@@ -94,6 +96,7 @@ static const struct {
     {"add-link", BODIES},
     {"tie-link", LINK},
     {"lead", HANDS},
+    {"turn-optic", CAMERA},
     {"pick-back", PICKING},
     {"pick-done", DRAFT},
     {"add-step", BODIES},
@@ -197,8 +200,9 @@ static guint of_scene(SporeWindow *self) {
   g_autoptr(GPtrArray) hands = spore_hands(document);
   gboolean measuring = spore_accuracy_is_measuring(SPORE_ACCURACY(self->accuracy));
   return (spore_object_child_count(spore_document_section(document, "bodies")) ? BODIES : 0) |
-         (hands->len ? HANDS : 0) | (measuring ? 0 : UNMEASURED) |
-         (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
+         (hands->len ? HANDS : 0) |
+         (spore_object_child_of(spore_document_section(document, "tools"), "camera") ? CAMERA : 0) |
+         (measuring ? 0 : UNMEASURED) | (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
          (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
          (spore_editor_document_get_study(self->document) ? STUDY : 0) |
          (spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)) ? POINT : 0) |

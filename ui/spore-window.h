@@ -34,6 +34,7 @@
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
  *               show-inspector, show-problems, present (state), filter, measure [s "distance", "angle" or "volume"],
+ *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
  *   others      search (for any of these), open-menu, report [s message]
  *

@@ -8,6 +8,7 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/math/quat.h"
+#include "core/scene/camera_sight.h"
 #include "core/scene/compile.h"
 #include "core/scene/length_unit.h"
 
@@ -262,16 +263,25 @@ static gboolean add_tool(const Addition *addition, SporeObject *body, GError **e
          set_all(addition, tool, addition->instrument->settings, error) && add_others(addition, tool, error);
 }
 
-/* What an endoscope shows: from the end of its shaft to what it points at. */
-static gboolean add_camera(const Addition *addition, SporeObject *body, GError **error) {
+/* How an optic looks aside from its shaft to what the endoscope points at. */
+static gboolean set_look(const Addition *addition, SporeObject *camera, SporeVec3 ahead, GError **error) {
   double look = addition->instrument->look_rad;
-  SporeVec3 ahead = {0, -addition->view * cos(look), -addition->view * sin(look)};
+  if (look == 0) return TRUE;
+  SporeVec3 at = {0, -addition->view * cos(look), -addition->view * sin(look)};
+  double turn = spore_camera_turn_to(addition->pose.position, ahead, spore_pose_apply(addition->pose, at));
+  g_autofree char *angle_text = g_strdup_printf("%.6g", look), *turn_text = g_strdup_printf("%.6f", turn);
+  return set(addition, camera, "angle", angle_text, error) && set(addition, camera, "turn", turn_text, error);
+}
+
+/* What an endoscope shows, from the end of its shaft. */
+static gboolean add_camera(const Addition *addition, SporeObject *body, GError **error) {
+  SporeVec3 ahead = spore_pose_apply(addition->pose, (SporeVec3){0, -addition->view, 0});
   g_autofree char *name = g_strdup_printf("%s_view", addition->name);
   SporeObject *camera = insert(addition, "tools", "camera", name, error);
   return camera && set(addition, camera, "body", spore_object_name(body), error) &&
          spore_edit_set_vector(addition->document, camera, "position", addition->pose.position, error) &&
-         spore_edit_set_vector(addition->document, camera, "target", spore_pose_apply(addition->pose, ahead), error) &&
-         set(addition, camera, "field_of_view", FIELD_OF_VIEW, error);
+         spore_edit_set_vector(addition->document, camera, "target", ahead, error) &&
+         set_look(addition, camera, ahead, error) && set(addition, camera, "field_of_view", FIELD_OF_VIEW, error);
 }
 
 static gboolean add_port(const Addition *addition, SporeObject *body, SporeVec3 entry, GError **error) {
@@ -323,6 +333,16 @@ SporeObject *spore_edit_add_instrument(SporeDocument *document, const SporeInstr
   spore_document_begin(document, label);
   SporeObject *body = add(&addition, &places, error);
   return spore_edit_finish(document, body != NULL) ? body : NULL;
+}
+
+gboolean spore_edit_turn_optic(SporeDocument *document, SporeObject *camera, double by, GError **error) {
+  if (spore_object_number(camera, "angle") == 0)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(camera), "%s",
+                             _("it looks along its axis, and a turn changes nothing; expected an optic that looks "
+                               "aside; give it an angle, or add an endoscope of 30 degrees"));
+  g_autofree char *text = g_strdup_printf("%.4f", remainder(spore_object_number(camera, "turn") + by, 2 * G_PI));
+  spore_document_begin(document, _("Turn the optic"));
+  return spore_edit_finish(document, spore_document_set_text(document, camera, "turn", text, error));
 }
 
 guint spore_instrument_outline(SporeDocument *document, const SporeInstrumentKind *instrument,

@@ -21,6 +21,10 @@ typedef struct SporeInstrumentPlaces {
 SporeObject *spore_edit_add_instrument(SporeDocument *document, const SporeInstrumentKind *instrument, const char *name,
                                        SporeInstrumentPlaces places, GError **error);
 
+/* Turns the optic of the camera about its axis by so much, rad, as one undo step: to the right for a while, seen in its
+ * picture. FALSE with a GError: the camera looks along its axis, so that a turn would change nothing. */
+gboolean spore_edit_turn_optic(SporeDocument *document, SporeObject *camera, double by, GError **error);
+
 #define SPORE_OUTLINE_POINTS 9
 
 /* The line along which the instrument would lie there: from the end of its shaft, or of a needle, to its tip. Returns

@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/scene/camera_sight.h"
 #include "core/scene/compile_private.h"
 
 /* An exercise that is put together. */
@@ -27,7 +28,7 @@ static gboolean add_view(Maker *maker, SporeObject *camera) {
   SporeCameraFields fields;
   spore_object_fields(camera, &fields);
   SporeView view = {.position = spore_vec3_load(fields.position),
-                    .target = spore_vec3_load(fields.target),
+                    .target = spore_camera_sight(&fields),
                     .field_of_view = fields.field_of_view};
   if (!spore_compiler_body_index(maker->compiler, camera, "body", &view.body)) return FALSE;
   g_array_append_val(maker->views, view);

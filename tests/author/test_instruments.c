@@ -5,6 +5,7 @@
 #include "core/author/instrument_edits.h"
 #include "core/io/off.h"
 #include "core/math/quat.h"
+#include "core/scene/camera_sight.h"
 #include "core/scene/compile.h"
 #include "tests/scene/fixture.h"
 
@@ -194,7 +195,9 @@ static void test_defaults(void) {
   SporeObject *body = add(&scene, "endoscope_30", &entry, &corner);
   camera = spore_document_find(scene.document, "camera", "endoscope_30_1_view");
   g_assert_true(spore_object_reference(camera, "body") == body);
-  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(vector(camera, "target"), corner), 0, ROUNDED);
+  SporeCameraFields fields;
+  spore_object_fields(camera, &fields);
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_camera_sight(&fields), corner), 0, ROUNDED);
   scene_free(&scene);
 }
 

@@ -1457,7 +1457,8 @@ def levels_change_while_it_runs():
 def view_goes_with_the_camera():
     """the view looks through the scene's camera and with its body, until it is moved by hand; 0 looks through it again."""
     path = folder("carried") / "scene.spore"
-    camera = '<camera name="front" body="ball" position="0.0015 0.06 0.2" target="0.0015 0.06 0.001" field_of_view="0.6"/>'
+    camera = '<camera name="front" body="ball" position="0.0015 0.06 0.2" target="0.0015 0.06 0.001" field_of_view="0.6"/>' \
+             '<camera name="oblique" position="0.0015 0.06 0.2" target="0.0015 0.1554 0.0254" angle="0.5" field_of_view="0.6"/>'
     path.write_text(re.sub(r"<camera .*/>", camera, (SCENES / "minimal.spore").read_text()))
     shutil.copytree(SCENES / "minimal", path.parent / "minimal")
     with start(path) as editor:
@@ -1483,6 +1484,15 @@ def view_goes_with_the_camera():
         editor.focus()
         editor.keys("0")
         ui.wait(middle_is_ball, "0 to look through the camera again")
+        editor.act("turn-optic", "d", 90)
+        ui.wait(lambda: "along its axis" in (editor.message() or ""), "the refusal of an optic that looks straight ahead")
+        editor.act("select", "s", "tools/oblique")
+        editor.act("view", "s", "camera")
+        ui.wait(middle_is_ball, "the camera that was selected, which looks down from its axis")
+        editor.act("turn-optic", "d", 90)
+        ui.wait(lambda: not middle_is_ball(), "the optic to be turned aside")
+        editor.act("undo")
+        ui.wait(middle_is_ball, "the turn to be undone")
 
 
 @check

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/scene/schema_fields.h"
+#include "core/scene/camera_sight.h"
 #include "ui/render/stage_body.h"
 
 /* Bounds. */
@@ -75,7 +75,7 @@ static SporeCamera look_with(const SporeStage *stage, const SporeObject *object)
   SporeCameraFields fields;
   SporeVec3 eye, right, up, forward;
   spore_object_fields(object, &fields);
-  SporeVec3 position = spore_vec3_load(fields.position), target = spore_vec3_load(fields.target);
+  SporeVec3 position = spore_vec3_load(fields.position), target = spore_camera_sight(&fields);
   const SporeObject *body = spore_object_reference(object, "body");
   SporeCamera camera = look_from(position, target, fields.field_of_view);
   if (!body) return camera;

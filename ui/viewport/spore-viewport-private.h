@@ -59,7 +59,7 @@ struct _SporeViewport {
   double draw_ms;
 
   SporeCamera camera;
-  gboolean through; /* the view looks through the scene's camera and follows it */
+  guint32 through; /* id of the camera of the scene that the view looks through and follows; 0: none */
   gboolean framed, waiting;
 
   SporeDrag drag;

@@ -29,17 +29,30 @@ static double aspect_of(SporeViewport *self) {
   return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
 }
 
+SporeObject *spore_viewport_scene_camera(SporeViewport *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *selected = spore_editor_document_selected(self->document);
+  if (selected && g_str_equal(spore_object_type(selected)->element, "camera")) return selected;
+  if (self->through) return spore_document_by_id(document, self->through);
+  return spore_object_child_of(spore_document_section(document, "tools"), "camera");
+}
+
 void spore_viewport_follow_camera(SporeViewport *self) {
-  self->through = self->through && self->stage && spore_stage_has_camera(self->stage);
-  if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+  const SporeObject *camera =
+      self->through ? spore_document_by_id(spore_editor_document_get(self->document), self->through) : NULL;
+  if (!camera) self->through = 0;
+  else if (self->stage)
+    spore_stage_camera(self->stage, spore_object_name(camera), aspect_of(self), &self->camera, NULL);
 }
 
 /* Looks through the scene's camera, where there is one. */
 static void look_through_camera(SporeViewport *self) {
   if (!self->stage || !spore_viewport_has_anything(self)) return;
-  spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+  const SporeObject *camera = spore_viewport_scene_camera(self);
+  const char *name = camera ? spore_object_name(camera) : NULL;
+  spore_stage_camera(self->stage, name, aspect_of(self), &self->camera, NULL);
   self->framed = TRUE;
-  self->through = spore_stage_has_camera(self->stage);
+  self->through = camera ? spore_object_id(camera) : 0;
 }
 
 void spore_viewport_look_afresh(SporeViewport *self) {
@@ -48,7 +61,7 @@ void spore_viewport_look_afresh(SporeViewport *self) {
 }
 
 void spore_viewport_leave_scene_camera(SporeViewport *self) {
-  self->through = FALSE;
+  self->through = 0;
   self->camera.roll = 0;
 }
 

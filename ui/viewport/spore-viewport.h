@@ -98,9 +98,12 @@ void spore_viewport_turn_cut(SporeViewport *self, gboolean turned);
 void spore_viewport_frame(SporeViewport *self);
 /* Frames the scene at the next rebuild, when the last change is visible. */
 void spore_viewport_frame_soon(SporeViewport *self);
-/* "front", "right", "top", or "camera": through the first camera of the scene, following it; without a camera, the
- * whole scene. */
+/* "front", "right", "top", or "camera": through spore_viewport_scene_camera, following it; without a camera, the whole
+ * scene. */
 void spore_viewport_view(SporeViewport *self, const char *view);
+/* The camera of the scene that is selected, else the one that the view looks through, else the first; NULL: there is
+ * none. */
+SporeObject *spore_viewport_scene_camera(SporeViewport *self);
 /* Writes the scene as the view shows it, without the grid and what is written over it, as a PNG. FALSE with a GError.
  */
 gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GError **error);
