@@ -1,4 +1,4 @@
-/* The outliner: organs, instruments, links and assets of the scene as a tree. */
+/* The outliner: organs, instruments, effects, links and assets of the scene as a tree. */
 #include "ui/panels/spore-outliner.h"
 
 #include <glib/gi18n.h>
@@ -8,7 +8,7 @@
 #include "core/sim/world.h"
 #include "ui/panels/report.h"
 
-enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT /* markup */, COLUMN_EDITABLE, COLUMN_WEIGHT };
+enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT /* markup */, COLUMN_EDITABLE, COLUMN_WEIGHT, COLUMN_KIND };
 
 struct _SporeOutliner {
   GtkBox parent;
@@ -35,6 +35,12 @@ static const char *badge_of(SporeOutliner *self, guint32 id) {
   return severity == SPORE_WARNING ? "dialog-warning-symbolic" : NULL;
 }
 
+/* Beside the name: an instrument's body, tool and view may have names that are alike. Of bodies it says nothing. */
+static const char *kind_of(const SporeObject *object) {
+  const SporeObjectType *type = spore_object_type(object);
+  return g_str_equal(type->element, "body") ? NULL : _(type->label);
+}
+
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
   guint32 id = spore_object_id(object);
   const char *problem = g_hash_table_lookup(self->problems, GUINT_TO_POINTER(id));
@@ -42,7 +48,7 @@ static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *obj
                                                   problem ? problem : "");
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
                                     COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
-                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, -1);
+                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), -1);
 }
 
 static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {
@@ -76,6 +82,8 @@ static void fill(SporeOutliner *self) {
   add_bodies(self, &group, TRUE);
   add_section(self, &group, "tools");
   add_section(self, &group, "devices");
+  add_group(self, _("Effects"), 0, &group);
+  add_section(self, &group, "effects");
   add_group(self, _("Links"), 0, &group);
   add_section(self, &group, "links");
   add_group(self, _("Assets"), 0, &group);
