@@ -288,7 +288,7 @@ class Editor:
                              text=True).stdout.split()
         subprocess.run(["xdotool", "windowfocus", "--sync", ids[-1]], stderr=subprocess.DEVNULL)
         active = self.atspi.StateType.ACTIVE
-        wait(lambda: any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog")), "a window to be active")
+        wait(lambda: any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog|file chooser")), "a window to be active")
 
     def keys(self, *keys):
         subprocess.run(["xdotool", "key", "--clearmodifiers", *keys], check=True)

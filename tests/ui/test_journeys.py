@@ -1303,6 +1303,21 @@ def a_scene_is_exported():
         editor.act("cancel-job")
         ui.wait(lambda: editor.enabled("export"), "the job to end")
         assert sorted(path.name for path in made.iterdir()) == ["scene.sporez", "series", "series.pvd"]
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.05, "time to advance")
+        editor.act("pause")
+        editor.act("export-dialog")
+        editor.press(editor.find("radio button", "^PLY$"))
+        played = editor.find("check box", "^With the input of the run that was played$")
+        assert played.get_state_set().contains(editor.atspi.StateType.CHECKED)
+        editor.focus()
+        editor.keys("Return")  # a press from here would wait for the chooser of files to end
+        editor.find("label", "^_?Name:$")
+        editor.focus()
+        editor.mouse("key", "ctrl+a", "type", str(made / "played"))
+        editor.keys("Return")
+        editor.find("label", r"^Written\n.*played\.ply: \d", 60)
+        keep_picture(editor, "played")
 
 
 @check
