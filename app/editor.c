@@ -24,9 +24,10 @@ static const char *scenes_folder(void) {
 }
 
 int main(int argc, char **argv) {
+  spore_ending_prepare();
   gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
   spore_catalogue_start();
-  spore_ending_prepare();
+  spore_ending_translate();
   g_set_prgname("spore-editor");
   g_set_application_name("SPORE");
   g_autoptr(SporeApplication) application = spore_application_new(SPORE_VERSION, scenes_folder());

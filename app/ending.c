@@ -13,7 +13,12 @@
 
 #define STATUS_FAULT 3
 
-static char no_memory[512], report_it[512]; /* translated beforehand: a translation takes memory */
+#define NO_MEMORY                                                                                                      \
+  N_("there is not enough memory to go on; nothing is half-written; close other programs, or use fewer or coarser "    \
+     "meshes")
+#define REPORT_IT N_("this is a fault of SPORE; nothing is half-written; report it")
+
+static char no_memory[512] = NO_MEMORY, report_it[512] = REPORT_IT; /* translated beforehand: that takes memory */
 
 static void say(const char *text) {
   for (size_t left = strlen(text); left > 0;) {
@@ -44,13 +49,13 @@ static void on_abort(int number) {
 }
 
 void spore_ending_prepare(void) {
-  g_strlcpy(no_memory,
-            _("there is not enough memory to go on; nothing is half-written; close other programs, or use fewer or "
-              "coarser meshes"),
-            sizeof no_memory);
-  g_strlcpy(report_it, _("this is a fault of SPORE; nothing is half-written; report it"), sizeof report_it);
-  (void)(g_strerror)(ENOMEM); /* GLib keeps the text: later there may be no memory to convert it */
-  g_log_set_default_handler(end, NULL);
   signal(SIGABRT, on_abort);
   signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of writing, and not the end */
+  g_log_set_default_handler(end, NULL);
+}
+
+void spore_ending_translate(void) {
+  g_strlcpy(no_memory, _(NO_MEMORY), sizeof no_memory);
+  g_strlcpy(report_it, _(REPORT_IT), sizeof report_it);
+  (void)(g_strerror)(ENOMEM); /* GLib keeps the text: later there may be no memory to convert it */
 }

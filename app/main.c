@@ -94,8 +94,9 @@ static __attribute__((noinline)) void take_stack(void) {
 
 int main(int argc, char **argv) {
   take_stack();
-  spore_catalogue_start();
   spore_ending_prepare();
+  spore_catalogue_start();
+  spore_ending_translate();
   atexit(close_output);
   if (argc < 2 || g_str_equal(argv[1], "--help") || g_str_equal(argv[1], "help") || g_str_equal(argv[1], "-h")) {
     print_help();

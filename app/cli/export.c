@@ -44,8 +44,9 @@ static gboolean check_moments(const ExportOptions *options, const SporeExportFor
                                              : SPORE_EXPORT_NO_MOMENT;
   if (asked > format->moments)
     return spore_error_raise(error, SPORE_ERROR_INPUT, option,
-                             _("format %s has no such thing; expected a format that shows moments of a run; leave it "
-                               "out"),
+                             options->every ? _("format %s shows no series; expected vtk or gltf; leave it out")
+                                            : _("format %s has no such thing; expected a format that shows moments of "
+                                                "a run; leave it out"),
                              format->name);
   return !options->every || options->time ||
          spore_error_raise(error, SPORE_ERROR_INPUT, option,
