@@ -83,10 +83,13 @@ def what_fits_is_made_nearer_and_what_does_not_cheaper():
     """A wide budget never takes a larger error, a narrow one a cheaper form, and says what is given up."""
     wide = advise(STRING, 1e6)
     assert wide["budget"]["chosen"]["error"] <= wide["budget"]["before"]["error"], wide
-    narrow = advise(STRING, round(0.7 * wide["budget"]["before"]["us"], 2))
-    before, chosen = narrow["budget"]["before"], narrow["budget"]["chosen"]
-    if before["us"] > narrow["budget"]["budget_us"]: # else the clock: the scene was faster this time
-        assert chosen["us"] < before["us"] and narrow["suggestion"], narrow
+    for _ in range(5):  # the clock of a busy machine may hide once that a form is a third cheaper
+        narrow = advise(STRING, round(0.7 * wide["budget"]["before"]["us"], 2))
+        before, chosen = narrow["budget"]["before"], narrow["budget"]["chosen"]
+        cheaper = before["us"] > narrow["budget"]["budget_us"] and chosen["us"] < before["us"] and narrow["suggestion"]
+        if cheaper:
+            break
+    assert cheaper, narrow
     assert [e["id"] for e in narrow["elements"]] == ["bodies/string"] and narrow["elements"][0]["verdict"] == "physical"
 
 
