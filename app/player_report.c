@@ -87,7 +87,7 @@ static void print_step(const SporeStepState *step) {
   printf(", ");
   print_word("phase", spore_step_phase_names[step->phase]);
   print_known("done_s", step->done_s);
-  printf(", \"early\": %" PRIu64, step->early);
+  printf(", \"early\": %" PRIu64 ", \"lost\": %" PRIu64, step->early, step->lost);
   if (step->hint) printf(", "), print_word("hint", step->hint);
   putchar('}');
 }

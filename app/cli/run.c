@@ -220,7 +220,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"exercise",
        N_("where the scene has one: phase (running, done, out_of_time), time_s, score (0 to 100: share of the steps "
           "done, times the mean mark), passed, steps (name, kind, phase, done_s once it is done, early: how often its "
-          "event came before its turn, hint), metrics (name, kind, value, unit, where it is graded good, pass and "
+          "event came before its turn, lost: how often it ended though it had to last, hint), metrics (name, kind, "
+          "value, unit, where it is graded good, pass and "
           "mark: "
           "1 at good, .5 at pass, verdict, source). Where less is better, the mark is 0 and the verdict unfinished or "
           "fail until all steps are done. The exit status does not depend on it")},

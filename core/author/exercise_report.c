@@ -36,6 +36,8 @@ static void add_step(JsonBuilder *builder, const SporeStepState *step) {
   add_known(builder, "done_s", step->done_s);
   json_builder_set_member_name(builder, "early");
   json_builder_add_int_value(builder, (gint64)step->early);
+  json_builder_set_member_name(builder, "lost");
+  json_builder_add_int_value(builder, (gint64)step->lost);
   add_text(builder, "hint", step->hint);
   json_builder_end_object(builder);
 }

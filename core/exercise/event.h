@@ -19,6 +19,7 @@ typedef struct SporeEventFields {
   double time;                   /* s: how long the event must go on without a break */
   double share;                  /* of the body */
   int64_t count;                 /* of what the tool does */
+  bool stays;                    /* it has to last until the steps that wait for it are done */
 } SporeEventFields;
 
 struct SporeExercise;

@@ -21,6 +21,14 @@
 #define BODY_OR_TOOL                                                                                                   \
   SPORE_ROW_BODY(SporeEventFields, body, body, N_("Body whose middle has to get there; none: the instrument has to."))
 #define COUNT(text) SPORE_ROW_COUNT(SporeEventFields, count, 1, 1e9, 1, text)
+#define STAYS                                                                                                          \
+  {                                                                                                                    \
+    .name = "stays", .type = SPORE_BOOLEAN, .unit = "", .offset = offsetof(SporeEventFields, stays),                   \
+    .change = SPORE_CHANGE_REBUILD,                                                                                    \
+    .doc =                                                                                                             \
+        N_("Whether it has to last until the steps that wait for it are done: when it ends before, it is an error, "   \
+           "and the step has to be done again.")                                                                       \
+  }
 #define TIME(start, text) SPORE_ROW_REAL(SporeEventFields, time, "s", 0, 3600, start, text)
 
 typedef const SporeExercise *Exercise;
@@ -56,7 +64,7 @@ static bool is_grasped(Exercise exercise, SporeStepRun *step, const SporeWorld *
   return is_held(exercise, world, instrument, step->from.body);
 }
 
-static const SporeParameter grasped_rows[] = {NAMED, TOOL("grasper|clamp"), BODY};
+static const SporeParameter grasped_rows[] = {NAMED, TOOL("grasper|clamp"), BODY, STAYS};
 static const SporeEventKind grasped = {.element = "grasped",
                                        .label = N_("Grasped"),
                                        .doc = N_("Jaws hold a body."),
@@ -64,7 +72,7 @@ static const SporeEventKind grasped = {.element = "grasped",
                                        .needs_body = true,
                                        .happens = is_grasped};
 
-static const SporeParameter clamped_rows[] = {NAMED, TOOL("clamp"), BODY};
+static const SporeParameter clamped_rows[] = {NAMED, TOOL("clamp"), BODY, STAYS};
 static const SporeEventKind clamped = {.element = "clamped",
                                        .label = N_("Clamped"),
                                        .doc = N_("A clamp or a clip holds a body."),
@@ -73,7 +81,7 @@ static const SporeEventKind clamped = {.element = "clamped",
                                        .happens = is_grasped};
 
 static const SporeParameter held_rows[] = {NAMED, TOOL("grasper|clamp"), BODY,
-                                           TIME(1, N_("How long it has to be held without a break."))};
+                                           TIME(1, N_("How long it has to be held without a break.")), STAYS};
 static const SporeEventKind held = {.element = "held",
                                     .label = N_("Held for a time"),
                                     .doc = N_("Jaws hold a body for a time."),

@@ -233,9 +233,11 @@ static void look_at_metrics(SporeExercise *exercise, const SporeWorld *world, do
   }
 }
 
+/* One that it waits for through others may have come undone. */
 static bool is_open(const SporeExercise *exercise, const SporeStepRun *step) {
-  uint32_t after = step->from.after;
-  return after == SPORE_NO_PART || exercise->steps[after].phase == SPORE_STEP_DONE;
+  for (uint32_t at = step->from.after; at != SPORE_NO_PART; at = exercise->steps[at].from.after)
+    if (exercise->steps[at].phase != SPORE_STEP_DONE) return false;
+  return true;
 }
 
 static void open_steps(SporeExercise *exercise) {
@@ -276,8 +278,47 @@ static void look_at_step(SporeExercise *exercise, SporeStepRun *step, const Spor
   exercise->step_was_done = true;
 }
 
+static bool waits_for(const SporeExercise *exercise, uint32_t step, uint32_t other) {
+  for (uint32_t at = exercise->steps[step].from.after; at != SPORE_NO_PART; at = exercise->steps[at].from.after)
+    if (at == other) return true;
+  return false;
+}
+
+static bool is_needed(const SporeExercise *exercise, uint32_t step) {
+  for (uint32_t i = 0; i < exercise->step_count; i++)
+    if (exercise->steps[i].phase != SPORE_STEP_DONE && waits_for(exercise, i, step)) return true;
+  return false;
+}
+
+/* The step is to be done again, and what waits for it waits anew. */
+static void lose_step(SporeExercise *exercise, uint32_t index) {
+  SporeStepRun *lost = &exercise->steps[index];
+  lost->phase = SPORE_STEP_OPEN;
+  lost->done_s = NAN;
+  lost->since_s = -1;
+  lost->lost++;
+  exercise->steps_done--;
+  for (uint32_t i = 0; i < exercise->step_count; i++) {
+    SporeStepRun *step = &exercise->steps[i];
+    if (step->phase != SPORE_STEP_OPEN || !waits_for(exercise, i, index)) continue;
+    step->phase = SPORE_STEP_WAITING;
+    step->amount = 0;
+  }
+}
+
+/* Steps whose event had to last, and ended. */
+static void lose_steps(SporeExercise *exercise, const SporeWorld *world) {
+  for (uint32_t i = 0; i < exercise->step_count; i++) {
+    SporeStepRun *step = &exercise->steps[i];
+    if (step->phase == SPORE_STEP_DONE && step->from.fields.stays && !step->skipped && is_needed(exercise, i) &&
+        !happens(exercise, step, world))
+      lose_step(exercise, i);
+  }
+}
+
 static void look_at_steps(SporeExercise *exercise, const SporeWorld *world) {
   exercise->step_was_done = false;
+  lose_steps(exercise, world);
   for (size_t i = 0; i < exercise->step_count; i++)
     if (exercise->steps[i].phase != SPORE_STEP_DONE) look_at_step(exercise, &exercise->steps[i], world);
   open_steps(exercise);
@@ -320,6 +361,7 @@ void spore_exercise_skip_to(SporeExercise *exercise, size_t index) {
     SporeStepRun *step = &exercise->steps[at];
     if (step->phase == SPORE_STEP_DONE) continue;
     step->phase = SPORE_STEP_DONE;
+    step->skipped = true;
     step->done_s = exercise->time_s;
     exercise->steps_done++;
   }
@@ -355,7 +397,8 @@ SporeStepState spore_exercise_step_state(const SporeExercise *exercise, size_t i
                           .kind = step->from.kind,
                           .phase = step->phase,
                           .done_s = step->done_s,
-                          .early = step->early};
+                          .early = step->early,
+                          .lost = step->lost};
 }
 
 /* The mark of a value, where less is better. */

@@ -124,6 +124,7 @@ typedef struct SporeStepState {
   SporeStepPhase phase;
   double done_s;  /* on the exercise's clock; NAN: not done */
   uint64_t early; /* how often its event began while the step waited */
+  uint64_t lost;  /* how often its event ended though it had to last */
 } SporeStepState;
 
 /* A metric so far. */

@@ -8,14 +8,15 @@
 typedef struct SporeStepRun {
   SporeExerciseStep from; /* its texts are owned */
   SporeStepPhase phase;
-  double done_s, since_s; /* since_s: since when the event is there without a break; negative: it is not */
-  uint64_t early, amount; /* amount: of what tools did since the step opened */
-  uint64_t counted;       /* SporeExercise.looks when amount last grew */
-  uint64_t able;          /* the instruments that can do it, a bit each */
-  bool was;               /* the event was there after the step before */
-  bool known;             /* passed_through: `last` is */
-  uint32_t holder;        /* lifted: the instrument that took hold first; SPORE_NO_PART: none holds */
-  SporeVec3 last;         /* passed_through: where the point was; lifted: where the hold began */
+  double done_s, since_s;       /* since_s: since when the event is there without a break; negative: it is not */
+  uint64_t early, lost, amount; /* lost: how often it came undone; amount: of what tools did since the step opened */
+  uint64_t counted;             /* SporeExercise.looks when amount last grew */
+  uint64_t able;                /* the instruments that can do it, a bit each */
+  bool skipped;                 /* it counts as done in a try-out, and need not last */
+  bool was;                     /* the event was there after the step before */
+  bool known;                   /* passed_through: `last` is */
+  uint32_t holder;              /* lifted: the instrument that took hold first; SPORE_NO_PART: none holds */
+  SporeVec3 last;               /* passed_through: where the point was; lifted: where the hold began */
 } SporeStepRun;
 
 /* An instrument as a metric follows it. */

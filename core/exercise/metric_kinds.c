@@ -447,17 +447,18 @@ static const SporeMetricKind drops = {
 static double errors_of(Exercise exercise, Metric metric) {
   (void)metric;
   uint64_t count = 0;
-  for (size_t i = 0; i < exercise->step_count; i++) count += exercise->steps[i].early;
+  for (size_t i = 0; i < exercise->step_count; i++) count += exercise->steps[i].early + exercise->steps[i].lost;
   return (double)count;
 }
 static const SporeParameter errors_rows[] = {GRADED};
-static const SporeMetricKind errors = {.element = "errors",
-                                       .label = N_("Errors of order"),
-                                       .doc =
-                                           N_("How often a tool began what cannot be undone before it was its turn."),
-                                       .parameters = SPORE_TABLE(errors_rows, SporeMetricFields),
-                                       COUNTED,
-                                       .value = errors_of};
+static const SporeMetricKind errors = {
+    .element = "errors",
+    .label = N_("Errors of order"),
+    .doc = N_("How often a tool began what cannot be undone before it was its turn, or what had to last "
+              "ended."),
+    .parameters = SPORE_TABLE(errors_rows, SporeMetricFields),
+    COUNTED,
+    .value = errors_of};
 
 const SporeMetricKind *const spore_metric_kinds[] = {
     &time_taken, &path_length, &economy,      &smoothness,  &movements,   &collisions,

@@ -398,9 +398,23 @@ def rings_go_over_and_back_by_their_track():
     assert fallen["score"] < 5 and not fallen["passed"], fallen
 
 
+def opened_between(track):
+    """The track, but for the left clamp, which is opened before the cut."""
+    device, rows = None, []
+    for row in track.read_text().splitlines():
+        words = row.split()
+        device = words[1] if words[0] == "device" else device
+        if device == "left" and len(words) == 10 and 4 <= float(words[0]) < 4.4:
+            words[9] = "2"
+        rows.append(" ".join(words))
+    changed = WORK / "opened.track"
+    changed.write_text("\n".join(rows) + "\n")
+    return changed
+
+
 @check
 def a_tube_is_clamped_on_both_sides_and_cut_between():
-    """By its track; the other track cuts too early. Strain is over a limit that the squeeze reaches, not over one beyond."""
+    """By its track; another track cuts too early, and one opens a clamp before the cut. Strain is over a limit that the squeeze reaches, not over one beyond."""
     scene = SCENES / "exercise-clip-and-cut.spore"
     text = scene.read_text()
     limits = '<excess_strain name="%s" body="tube" strain="%s"/>'
@@ -410,6 +424,9 @@ def a_tube_is_clamped_on_both_sides_and_cut_between():
         early = run_exercise("exercise-clip-and-cut", 1500, "--input", SCENES / "exercise-clip-and-cut" / "early.track")
     finally:
         scene.write_text(text)
+    opened = run_exercise("exercise-clip-and-cut", 1350, "--input", opened_between(scene.with_suffix("") / "exercise-clip-and-cut.track"))
+    assert steps(opened)["clamp_left"]["lost"] == 1 and left(opened) == ["clamp_left", "cut"], opened
+    assert metrics(opened)["errors"]["value"] == 2 and not opened["passed"] and opened["score"] < 50, "it was opened, and then cut"
     times = [step["done_s"] for step in cut["steps"]]
     assert cut["passed"] and cut["score"] == 100 and times == sorted(times), cut
     found = metrics(cut)

@@ -137,6 +137,43 @@ static void test_skip(void) {
   rig_free(course.rig);
 }
 
+/* What has to last and ends is an error, while a step waits for it; what waits, waits anew. */
+static void test_stays(void) {
+  for (int waited = 0; waited < 2; waited++) {
+    Course course;
+    set_up(&course);
+    course.steps[0].fields.stays = true;
+    if (waited) course.steps[1].after = 0, course.steps[5].after = 1;
+    SporeExercise *exercise = create(&course);
+    run(&course, exercise, 11); /* at the first place */
+    g_assert_cmpint(spore_exercise_step_state(exercise, 0).phase, ==, SPORE_STEP_DONE);
+    run(&course, exercise, 70); /* past the last */
+    SporeStepState first = spore_exercise_step_state(exercise, 0), second = spore_exercise_step_state(exercise, 1);
+    g_assert_cmpint(first.phase, ==, waited ? SPORE_STEP_OPEN : SPORE_STEP_DONE);
+    g_assert_cmpuint(first.lost, ==, waited ? 1 : 0);
+    g_assert_true(isnan(first.done_s) == (waited == 1));
+    g_assert_cmpint(second.phase, ==, waited ? SPORE_STEP_WAITING : SPORE_STEP_DONE);
+    g_assert_cmpuint(spore_exercise_state(exercise).steps_done, ==, waited ? PLACES - 3 : PLACES);
+    spore_exercise_free(exercise);
+    rig_free(course.rig);
+  }
+}
+
+/* A step that a try-out skips need not last. */
+static void test_skipped_need_not_last(void) {
+  Course course;
+  set_up(&course);
+  course.steps[0].fields.stays = true;
+  course.steps[1].after = 0;
+  SporeExercise *exercise = create(&course);
+  spore_exercise_skip_to(exercise, 1);
+  run(&course, exercise, 25); /* past the second place */
+  g_assert_cmpint(spore_exercise_step_state(exercise, 1).phase, ==, SPORE_STEP_DONE);
+  g_assert_cmpuint(spore_exercise_step_state(exercise, 0).lost, ==, 0);
+  spore_exercise_free(exercise);
+  rig_free(course.rig);
+}
+
 /* Steps in a random order: the ball passes the places in turn, so that a step is done just where the one that it waits
  * for was done before, and lies before it on the way. */
 static void test_random_orders(void) {
@@ -242,6 +279,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/exercise/watching", test_watching);
   g_test_add_func("/exercise/pause_and_restart", test_pause_and_restart);
   g_test_add_func("/exercise/skip", test_skip);
+  g_test_add_func("/exercise/stays", test_stays);
+  g_test_add_func("/exercise/skipped-need-not-last", test_skipped_need_not_last);
   g_test_add_func("/exercise/random_orders", test_random_orders);
   g_test_add_func("/exercise/unfinished", test_unfinished);
   g_test_add_func("/exercise/refused", test_refused);
