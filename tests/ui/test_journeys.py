@@ -1508,6 +1508,10 @@ def view_goes_with_the_camera():
         ui.wait(lambda: not middle_is_ball(), "the optic to be turned aside")
         editor.act("undo")
         ui.wait(middle_is_ball, "the turn to be undone")
+        editor.act("open", "s", str(SCENES / "table1-rigid.spore"))
+        ui.wait(lambda: not editor.row("oblique") and editor.row("ovary"), "another scene")
+        editor.act("turn-optic", "d", 90)
+        ui.wait(lambda: "along its axis" in (editor.message() or ""), "the other scene's own camera to be meant")
 
 
 @check
