@@ -15,11 +15,6 @@ static void exported(SporeJob *job, gpointer data, const GError *error, gpointer
   spore_export_report_show(GTK_WINDOW(self), report);
 }
 
-static double played_s(SporeWindow *self) {
-  SporeSession *session = spore_player_get_session(self->player);
-  return session ? spore_session_snapshot(session)->time_s : 0;
-}
-
 static void export_to(SporeWindow *self, const SporeExportFormat *format, const char *file, double time_s,
                       double every_s, gboolean as_played) {
   SporeSession *session = as_played ? spore_player_get_session(self->player) : NULL;
@@ -67,7 +62,7 @@ static void act_export(GSimpleAction *action, GVariant *parameter, gpointer data
 
 static void act_export_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
-  GtkWidget *dialog = spore_export_dialog_new(GTK_WINDOW(self), played_s(self));
+  GtkWidget *dialog = spore_export_dialog_new(GTK_WINDOW(self), spore_window_played_s(self));
   g_signal_connect(dialog, "response", G_CALLBACK(dialog_answered), self);
   gtk_window_present(GTK_WINDOW(dialog));
 }

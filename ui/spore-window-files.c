@@ -269,8 +269,7 @@ static void save_recording(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
   if (text && !spore_write_file(file, text, size, &error)) spore_window_failed(self, error);
   spore_free(text);
-  spore_track_clear(track);
-  g_free(track);
+  spore_input_free(track);
 }
 
 static void act_save_recording(GSimpleAction *action, GVariant *parameter, gpointer data) {

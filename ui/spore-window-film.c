@@ -26,15 +26,14 @@ static void film(SporeWindow *self, SporeFilmWork *work) {
 }
 
 static void film_run(SporeWindow *self, const char *file) {
-  SporeSession *session = spore_player_get_session(self->player);
-  double end_s = session ? spore_session_snapshot(session)->time_s : 0;
+  double end_s = spore_window_played_s(self);
   if (end_s <= 0) {
     spore_window_complain(self, _("Nothing has run yet; play the scene first (F5), then film what was played"));
     return;
   }
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeFilmWork *work = spore_film_work_new(document, file, end_s, chosen_speed(self));
-  spore_film_work_add(work, spore_session_recording(session), NULL);
+  spore_film_work_add(work, spore_session_recording(spore_player_get_session(self->player)), NULL);
   film(self, work);
 }
 

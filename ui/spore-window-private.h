@@ -118,6 +118,8 @@ gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWo
 void spore_window_show_job(SporeWindow *self);
 /* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
 SporeObject *spore_window_body_to_work_on(SporeWindow *self);
+/* How long the scene has been simulated, s; 0: not yet. */
+double spore_window_played_s(SporeWindow *self);
 gboolean spore_window_is_at_start(SporeWindow *self);
 /* Editing in the view works on the scene at its start. FALSE: the user is told. */
 gboolean spore_window_may_edit(SporeWindow *self);

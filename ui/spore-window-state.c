@@ -131,10 +131,12 @@ SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
   return only;
 }
 
-gboolean spore_window_is_at_start(SporeWindow *self) {
+double spore_window_played_s(SporeWindow *self) {
   SporeSession *session = spore_player_get_session(self->player);
-  return !session || spore_session_snapshot(session)->time_s == 0;
+  return session ? spore_session_snapshot(session)->time_s : 0;
 }
+
+gboolean spore_window_is_at_start(SporeWindow *self) { return spore_window_played_s(self) == 0; }
 
 gboolean spore_window_may_edit(SporeWindow *self) {
   if (spore_window_is_at_start(self)) return TRUE;

@@ -10,8 +10,6 @@ typedef struct ExportOptions {
   SporeSceneOptions scene;
 } ExportOptions;
 
-#define FILES_SAID 4 /* one by one */
-
 /* The run that --time and --every ask for. */
 static gboolean find_moments(SporeExport *export, const ExportOptions *options, GError **error) {
   double dt_s = spore_object_number(spore_document_section(export->document, "solver"), "time_step");
@@ -53,17 +51,14 @@ static gboolean check_moments(const ExportOptions *options, const SporeExportFor
                            _("no time to run is given; expected --time S beside it; add that"));
 }
 
-/* A series is many files: people are told of the last one, which names the others. */
 static void say_written(SporeCli *cli, const SporeExport *export) {
-  const SporeExported *all = (const SporeExported *)(gconstpointer) export->written->data;
-  guint count = export->written->len;
-  gsize bytes = 0;
-  for (guint i = 0; i < count; i++) bytes += all[i].bytes;
-  if (count > FILES_SAID) {
-    spore_cli_say(cli, _("%s: with %u other files, %zu bytes\n"), all[count - 1].file, count - 1, bytes);
-    return;
+  gsize bytes;
+  guint unsaid = spore_export_unsaid(export, &bytes);
+  for (guint i = unsaid; i < export->written->len; i++) {
+    const SporeExported *one = &g_array_index(export->written, SporeExported, i);
+    if (unsaid) spore_cli_say(cli, _("%s: with %u other files, %zu bytes\n"), one->file, unsaid, bytes + one->bytes);
+    else spore_cli_say(cli, _("%s: %zu bytes\n"), one->file, one->bytes);
   }
-  for (guint i = 0; i < count; i++) spore_cli_say(cli, _("%s: %zu bytes\n"), all[i].file, all[i].bytes);
 }
 
 static void report_written(SporeCli *cli, const SporeExport *export) {

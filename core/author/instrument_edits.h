@@ -21,8 +21,8 @@ typedef struct SporeInstrumentPlaces {
 SporeObject *spore_edit_add_instrument(SporeDocument *document, const SporeInstrumentKind *instrument, const char *name,
                                        SporeInstrumentPlaces places, GError **error);
 
-/* Turns the optic of the camera about its axis by so much, rad, as one undo step: to the right for a while, seen in its
- * picture. FALSE with a GError: the camera looks along its axis, so that a turn would change nothing. */
+/* Turns the optic of the camera about its axis by so much, rad, as one undo step: from below towards the right, seen in
+ * its picture. FALSE with a GError: the camera looks along its axis, so that a turn would change nothing. */
 gboolean spore_edit_turn_optic(SporeDocument *document, SporeObject *camera, double by, GError **error);
 
 #define SPORE_OUTLINE_POINTS 9

@@ -135,13 +135,17 @@ SporeSimulation *spore_simulation_new_unpruned(SporeDocument *document, SporePoo
   return compile(document, pool, input, TRUE, cancel, error);
 }
 
+void spore_input_free(SporeTrack *input) {
+  if (input) spore_track_clear(input);
+  g_free(input);
+}
+
 void spore_simulation_free(SporeSimulation *simulation) {
   if (!simulation) return;
   spore_exercise_free(simulation->exercise);
   if (simulation->world) spore_world_free(simulation->world);
   g_ptr_array_unref(simulation->devices); /* the world borrows the devices, and the devices borrow the track */
-  if (simulation->track) spore_track_clear(simulation->track);
-  g_free(simulation->track);
+  spore_input_free(simulation->track);
   g_free(simulation->body_object);
   g_free(simulation);
 }

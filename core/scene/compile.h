@@ -26,6 +26,8 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
 SporeSimulation *spore_simulation_new_unpruned(SporeDocument *document, SporePool *pool, const SporeTrack *input,
                                                const SporeCancel *cancel, GError **error);
 void spore_simulation_free(SporeSimulation *simulation);
+/* Frees an input that GLib allocated; NULL: nothing. */
+void spore_input_free(SporeTrack *input);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeSimulation, spore_simulation_free)
 /* Whether the body collides with its model's own spheres: its collision unit names no sphere set. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);

@@ -13,8 +13,8 @@
 #define REPORT_HEIGHT 360
 
 typedef struct Choice {
-  GtkWidget *dialog, *times, *every, *every_label, *played;
-  GtkSpinButton *time_spin, *every_spin;
+  GtkWidget *times, *every_label, *played;
+  GtkSpinButton *time_s, *every_s;
   const SporeExportFormat *format;
   double played_s;
 } Choice;
@@ -26,10 +26,10 @@ static void show_options(Choice *choice) {
   SporeExportMoments moments = choice->format->moments;
   gboolean played = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(choice->played));
   gtk_widget_set_sensitive(choice->times, moments != SPORE_EXPORT_NO_MOMENT);
-  gtk_widget_set_visible(choice->every, moments == SPORE_EXPORT_SERIES);
+  gtk_widget_set_visible(GTK_WIDGET(choice->every_s), moments == SPORE_EXPORT_SERIES);
   gtk_widget_set_visible(choice->every_label, moments == SPORE_EXPORT_SERIES);
   gtk_widget_set_sensitive(choice->played, moments != SPORE_EXPORT_NO_MOMENT && choice->played_s > 0);
-  gtk_spin_button_set_range(choice->time_spin, 0, played ? choice->played_s : MOST_S);
+  gtk_spin_button_set_range(choice->time_s, 0, played ? choice->played_s : MOST_S);
 }
 
 static void format_chosen(GtkToggleButton *button, Choice *choice) {
@@ -39,7 +39,7 @@ static void format_chosen(GtkToggleButton *button, Choice *choice) {
 }
 
 static void played_toggled(GtkToggleButton *button, Choice *choice) {
-  if (gtk_toggle_button_get_active(button)) gtk_spin_button_set_value(choice->time_spin, choice->played_s);
+  if (gtk_toggle_button_get_active(button)) gtk_spin_button_set_value(choice->time_s, choice->played_s);
   show_options(choice);
 }
 
@@ -85,14 +85,14 @@ static GtkSpinButton *seconds_new(const char *name, double least, double usual) 
 static void add_times(Choice *choice, GtkWidget *box) {
   gboolean has_run = choice->played_s > 0;
   choice->times = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-  choice->time_spin = seconds_new(_("Simulated time, s"), 0, has_run ? choice->played_s : USUAL_S);
-  choice->every_spin = seconds_new(_("Time between moments, s"), 0.001, USUAL_EVERY_S);
-  choice->every = GTK_WIDGET(choice->every_spin), choice->every_label = gtk_label_new(_("Time between moments, s"));
+  choice->time_s = seconds_new(_("Simulated time, s"), 0, has_run ? choice->played_s : USUAL_S);
+  choice->every_s = seconds_new(_("Time between moments, s"), 0.001, USUAL_EVERY_S);
+  choice->every_label = gtk_label_new(_("Time between moments, s"));
   choice->played = gtk_check_button_new_with_label(_("With the input of the run that was played"));
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(choice->played), has_run);
   g_signal_connect(choice->played, "toggled", G_CALLBACK(played_toggled), choice);
-  GtkWidget *parts[] = {gtk_label_new(_("Simulated time, s")), GTK_WIDGET(choice->time_spin), choice->every_label,
-                        choice->every};
+  GtkWidget *parts[] = {gtk_label_new(_("Simulated time, s")), GTK_WIDGET(choice->time_s), choice->every_label,
+                        GTK_WIDGET(choice->every_s)};
   for (gsize i = 0; i < G_N_ELEMENTS(parts); i++) gtk_container_add(GTK_CONTAINER(choice->times), parts[i]);
   gtk_container_add(GTK_CONTAINER(box), choice->times);
   gtk_container_add(GTK_CONTAINER(box), choice->played);
@@ -105,7 +105,7 @@ GtkWidget *spore_export_dialog_new(GtkWindow *parent, double played_s) {
   GtkWidget *box = gtk_dialog_get_content_area(GTK_DIALOG(dialog));
   gtk_window_set_resizable(GTK_WINDOW(dialog), FALSE);
   Choice *choice = g_new0(Choice, 1);
-  *choice = (Choice){.dialog = dialog, .format = &spore_export_formats[0], .played_s = played_s};
+  *choice = (Choice){.format = &spore_export_formats[0], .played_s = played_s};
   g_object_set_data_full(G_OBJECT(dialog), "spore-choice", choice, g_free);
   gtk_container_set_border_width(GTK_CONTAINER(box), 18);
   gtk_box_set_spacing(GTK_BOX(box), 12);
@@ -120,11 +120,11 @@ GtkWidget *spore_export_dialog_new(GtkWindow *parent, double played_s) {
 const SporeExportFormat *spore_export_dialog_get_format(GtkWidget *dialog) { return choice_of(dialog)->format; }
 
 double spore_export_dialog_get_time_s(GtkWidget *dialog) {
-  return gtk_spin_button_get_value(choice_of(dialog)->time_spin);
+  return gtk_spin_button_get_value(choice_of(dialog)->time_s);
 }
 
 double spore_export_dialog_get_every_s(GtkWidget *dialog) {
-  return gtk_spin_button_get_value(choice_of(dialog)->every_spin);
+  return gtk_spin_button_get_value(choice_of(dialog)->every_s);
 }
 
 gboolean spore_export_dialog_get_as_played(GtkWidget *dialog) {

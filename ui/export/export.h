@@ -54,6 +54,10 @@ typedef struct SporeExportFormat {
 
 extern const SporeExportFormat spore_export_formats[]; /* the last has no name */
 
+/* How many files, the first ones, people are not told of one by one: a series is many, and the last one names the
+ * others. *bytes: of those. */
+guint spore_export_unsaid(const SporeExport *export, gsize *bytes);
+
 /* Of an export that is zero but for what is asked for. */
 void spore_export_init(SporeExport *export);
 void spore_export_clear(SporeExport *export);

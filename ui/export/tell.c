@@ -2,6 +2,8 @@
 #include "core/io/scene_xml.h"
 #include "ui/export/private.h"
 
+#define FILES_SAID 4 /* one by one */
+
 gboolean spore_export_write(SporeExport *export, const void *content, gsize size, GError **error) {
   if (!spore_write_file(export->output, content, size, error)) return FALSE;
   spore_export_wrote(export, export->output, size);
@@ -11,6 +13,13 @@ gboolean spore_export_write(SporeExport *export, const void *content, gsize size
 void spore_export_wrote(SporeExport *export, const char *file, gsize bytes) {
   const SporeExported exported = {g_strdup(file), bytes};
   g_array_append_val(export->written, exported);
+}
+
+guint spore_export_unsaid(const SporeExport *export, gsize *bytes) {
+  guint count = export->written->len > FILES_SAID ? export->written->len - 1 : 0;
+  *bytes = 0;
+  for (guint i = 0; i < count; i++) *bytes += g_array_index(export->written, SporeExported, i).bytes;
+  return count;
 }
 
 void spore_export_lose(SporeExport *export, char *sentence) { g_ptr_array_add(export->lost, sentence); }

@@ -4,11 +4,11 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "core/scene/compile.h"
 #include "ui/jobs/under-way.h"
 #include "ui/jobs/work-place.h"
 
 #define ROUNDING 1e-6 /* of a step */
-#define FILES_SHOWN 4 /* one by one */
 
 static double step_of(const SporeDocument *document) {
   return spore_object_number(spore_document_section(document, "solver"), "time_step");
@@ -45,8 +45,7 @@ void spore_export_work_free(gpointer data) {
   SporeExportWork *work = data;
   spore_export_clear(&work->export);
   spore_document_free(work->document);
-  if (work->input) spore_track_clear(work->input);
-  g_free(work->input);
+  spore_input_free(work->input);
   g_free(work->output);
   g_free(work);
   spore_work_end();
@@ -61,21 +60,19 @@ static void append_heading(GString *text, const char *heading) {
   g_string_append_printf(text, "%s<b>%s</b>", text->len ? "\n\n" : "", heading);
 }
 
-/* A series is many files: the last one names the others. */
 static void append_written(GString *text, const SporeExport *export) {
-  gsize bytes = 0;
-  guint count = export->written->len, first = count > FILES_SHOWN ? count - 1 : 0;
+  gsize bytes;
+  guint unsaid = spore_export_unsaid(export, &bytes);
   append_heading(text, _("Written"));
-  for (guint i = 0; i < count; i++) {
+  for (guint i = unsaid; i < export->written->len; i++) {
     const SporeExported *one = &g_array_index(export->written, SporeExported, i);
     g_autofree char *size = g_format_size(one->bytes), *line = g_strdup_printf("%s: %s", one->file, size);
-    if (i < first) bytes += one->bytes;
-    else append_escaped(text, line);
+    append_escaped(text, line);
   }
-  if (!first) return;
+  if (!unsaid) return;
   g_autofree char *size = g_format_size(bytes);
   g_autofree char *others =
-      g_strdup_printf(ngettext("and %u other file: %s", "and %u other files: %s", first), first, size);
+      g_strdup_printf(ngettext("and %u other file: %s", "and %u other files: %s", unsaid), unsaid, size);
   append_escaped(text, others);
 }
 

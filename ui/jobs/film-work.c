@@ -59,8 +59,7 @@ void spore_film_work_free(gpointer data) {
   SporeFilmWork *work = data;
   spore_document_free(work->document);
   for (guint i = 0; i < work->count; i++) {
-    if (work->inputs[i]) spore_track_clear(work->inputs[i]);
-    g_free(work->inputs[i]);
+    spore_input_free(work->inputs[i]);
     g_free(work->input_files[i]);
   }
   g_free(work->filmed.gl_renderer);

@@ -1,6 +1,7 @@
 /* Keeps the input of an attempt: as text, minutes of it take longer than a frame. */
 #include "ui/jobs/track-work.h"
 
+#include "core/scene/compile.h"
 #include "ui/jobs/under-way.h"
 
 SporeTrackWork *spore_track_work_new(const char *scene, const SporeAttempt *attempt, SporeTrack *input) {
@@ -19,8 +20,7 @@ gboolean spore_track_work_run(gpointer data, const SporeProgress *progress, GErr
 
 void spore_track_work_free(gpointer data) {
   SporeTrackWork *work = data;
-  spore_track_clear(work->input);
-  g_free(work->input);
+  spore_input_free(work->input);
   g_free(work->scene);
   g_free(work);
   spore_work_end();

@@ -68,7 +68,6 @@ void spore_stage_set_selection(SporeStage *stage, const guint32 *object_ids, gsi
  * no camera has that name. */
 gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
                             GError **error);
-gboolean spore_stage_has_camera(const SporeStage *stage);
 void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]);
 /* Body object under a ray: id, 0 none; *point is the hit. */
 guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point);

@@ -54,8 +54,6 @@ static SporeVec3 moved_with(const SporeStage *stage, const SporeObject *body, Sp
   return point;
 }
 
-gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
-
 /* Cameras of scenes are placed for a picture of this aspect. A narrower picture shows as much to the sides. */
 #define SCENE_ASPECT (16.0 / 9)
 

@@ -24,8 +24,7 @@ gboolean spore_session_work_run(gpointer data, const SporeProgress *progress, GE
   if (work->repeated && !input) return FALSE;
   work->session = spore_session_new(work->document, threads, input, &cancel, error);
   if (work->session && input) spore_session_repeat(work->session, g_steal_pointer(&input));
-  if (input) spore_track_clear(input);
-  g_free(input);
+  spore_input_free(input);
   return work->session != NULL;
 }
 

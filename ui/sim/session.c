@@ -429,8 +429,7 @@ void spore_session_free(SporeSession *session) {
     session->recorders[i].pointer->type->close(session->recorders[i].pointer);
   g_free(session->recorders);
   if (session->pool) spore_pool_free(session->pool);
-  if (session->repeated) spore_track_clear(session->repeated);
-  g_free(session->repeated);
+  spore_input_free(session->repeated);
   spore_track_clear(&session->recording);
   g_cond_clear(&session->stood);
   g_cond_clear(&session->wake);
