@@ -203,13 +203,23 @@ static void change_panel(GSimpleAction *action, GVariant *state, gpointer data) 
   gtk_widget_set_visible(self->bottom, beside && is_on(self, "show-problems"));
 }
 
+/* Over the view while it has the whole screen: the panel shows the same. */
+static void change_guide(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  gboolean wanted = is_on(self, "present") && is_on(self, "show-guide");
+  spore_exercise_guide_set_wanted(SPORE_EXERCISE_GUIDE(self->guide), wanted);
+}
+
 /* The view has the whole screen, or gives it back. */
 static void change_present(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
   change_panel(action, state, data);
-  if (g_variant_get_boolean(state)) gtk_window_fullscreen(GTK_WINDOW(data));
-  else gtk_window_unfullscreen(GTK_WINDOW(data));
-  spore_viewport_set_presented(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_boolean(state));
-  spore_window_show_hint(data);
+  change_guide(action, state, data);
+  if (g_variant_get_boolean(state)) gtk_window_fullscreen(GTK_WINDOW(self));
+  else gtk_window_unfullscreen(GTK_WINDOW(self));
+  spore_viewport_set_presented(SPORE_VIEWPORT(self->viewport), g_variant_get_boolean(state));
+  spore_window_show_hint(self);
 }
 
 static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -338,6 +348,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-inspector", NULL, NULL, "true", change_panel},
       {"show-problems", NULL, NULL, "true", change_panel},
       {"present", NULL, NULL, "false", change_present},
+      {"show-guide", NULL, NULL, "true", change_guide},
       {"measure-accuracy", act_measure_accuracy},
       {"choose-point", act_choose_point, "u"},
       {"apply-point", act_apply_point},

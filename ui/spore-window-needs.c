@@ -38,6 +38,7 @@ typedef enum Need {
   PICKING = 1 << 26,
   MEASURES = 1 << 27,
   CAMERA = 1 << 28,
+  EXERCISE = 1 << 29,
 } Need;
 
 /* In the order in which they are told. */
@@ -72,6 +73,7 @@ static const struct {
     {DRAFT | PICKING, N_("nothing is being picked")},
     {HANDS, N_("the scene has no instrument yet; add one")},
     {CAMERA, N_("the scene has no camera yet; add an endoscope")},
+    {EXERCISE, N_("the scene has no exercise yet; add a step in the Exercise tab")},
 };
 
 /* Those that need something. */
@@ -99,6 +101,7 @@ static const struct {
     {"turn-optic", CAMERA},
     {"pick-back", PICKING},
     {"pick-done", DRAFT},
+    {"show-guide", EXERCISE},
     {"add-step", BODIES},
     {"add-metric", BODIES},
     {"aim-step", STEP},
@@ -202,6 +205,7 @@ static guint of_scene(SporeWindow *self) {
   return (spore_object_child_count(spore_document_section(document, "bodies")) ? BODIES : 0) |
          (hands->len ? HANDS : 0) |
          (spore_object_child_of(spore_document_section(document, "tools"), "camera") ? CAMERA : 0) |
+         (spore_object_child_count(spore_document_section(document, "exercise")) ? EXERCISE : 0) |
          (measuring ? 0 : UNMEASURED) | (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
          (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
          (spore_editor_document_get_study(self->document) ? STUDY : 0) |

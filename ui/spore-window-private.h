@@ -9,6 +9,7 @@
 #include "ui/jobs/spore-generator.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/panels/spore-accuracy.h"
+#include "ui/panels/spore-exercise-guide.h"
 #include "ui/panels/spore-exercise.h"
 #include "ui/panels/spore-generator-panel.h"
 #include "ui/panels/spore-inspector.h"
@@ -62,8 +63,8 @@ struct _SporeWindow {
   GtkWidget *header, *play_button, *play_image, *speed_button, *menu_button, *message_bar, *message, *message_remedy,
       *recovery_bar, *recovery_text, *hold_bar, *hold_text, *hold_button;
   SporeCause cause; /* of the message that is shown */
-  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *exercise, *generator_panel, *middle,
-      *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *exercise, *guide, *generator_panel,
+      *middle, *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */

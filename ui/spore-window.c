@@ -168,6 +168,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
   gtk_widget_class_bind_template_child(widget, SporeWindow, exercise);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, guide);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, middle);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
@@ -195,6 +196,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_PROBLEMS);
   g_type_ensure(SPORE_TYPE_PLOTS);
   g_type_ensure(SPORE_TYPE_EXERCISE_PANEL);
+  g_type_ensure(SPORE_TYPE_EXERCISE_GUIDE);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-window.ui");
   bind_children(widget);

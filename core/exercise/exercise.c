@@ -442,6 +442,7 @@ SporeExerciseState spore_exercise_state(const SporeExercise *exercise) {
                               .time_s = exercise->time_s,
                               .steps = exercise->step_count,
                               .steps_done = exercise->steps_done,
+                              .errors = spore_exercise_errors(exercise),
                               .metrics = exercise->metric_count};
   double marks = 0, weights = 0;
   bool failed = false;

@@ -146,8 +146,9 @@ typedef struct SporeExerciseState {
   bool tried;    /* a try-out: spore_exercise_try_out, spore_exercise_skip_to */
   double time_s; /* on the exercise's clock */
   size_t steps, steps_done, metrics;
-  double score; /* 0 to 100: the share of the steps that are done, times the mean of the marks by weight */
-  bool passed;  /* all steps are done, and no metric failed */
+  uint64_t errors; /* of order: early and lost of all steps together */
+  double score;    /* 0 to 100: the share of the steps that are done, times the mean of the marks by weight */
+  bool passed;     /* all steps are done, and no metric failed */
 } SporeExerciseState;
 
 SporeExercisePhase spore_exercise_phase(const SporeExercise *exercise);

@@ -62,6 +62,13 @@ struct SporeExercise {
   double time_s, world_s;            /* its clock; the world's when it last looked */
 };
 
+/* What was begun before its turn, and what came undone. */
+static inline uint64_t spore_exercise_errors(const SporeExercise *exercise) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < exercise->step_count; i++) count += exercise->steps[i].early + exercise->steps[i].lost;
+  return count;
+}
+
 /* places.c */
 /* The point of an instrument, m: the tip of its tool, or the origin of the body of what only touches. */
 SporeVec3 spore_instrument_point(const SporeExercise *exercise, const SporeWorld *world, uint32_t instrument);

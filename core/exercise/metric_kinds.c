@@ -446,9 +446,7 @@ static const SporeMetricKind drops = {
 
 static double errors_of(Exercise exercise, Metric metric) {
   (void)metric;
-  uint64_t count = 0;
-  for (size_t i = 0; i < exercise->step_count; i++) count += exercise->steps[i].early + exercise->steps[i].lost;
-  return (double)count;
+  return (double)spore_exercise_errors(exercise);
 }
 static const SporeParameter errors_rows[] = {GRADED};
 static const SporeMetricKind errors = {

@@ -151,6 +151,7 @@ static void test_stays(void) {
     SporeStepState first = spore_exercise_step_state(exercise, 0), second = spore_exercise_step_state(exercise, 1);
     g_assert_cmpint(first.phase, ==, waited ? SPORE_STEP_OPEN : SPORE_STEP_DONE);
     g_assert_cmpuint(first.lost, ==, waited ? 1 : 0);
+    g_assert_cmpuint(spore_exercise_state(exercise).errors, ==, waited ? 1 : 0);
     g_assert_true(isnan(first.done_s) == (waited == 1));
     g_assert_cmpint(second.phase, ==, waited ? SPORE_STEP_WAITING : SPORE_STEP_DONE);
     g_assert_cmpuint(spore_exercise_state(exercise).steps_done, ==, waited ? PLACES - 3 : PLACES);

@@ -1850,6 +1850,44 @@ def the_view_has_the_whole_screen():
 
 
 @check
+def a_trainee_follows_the_exercise_on_the_whole_screen():
+    """the steps, the hint, time, score and errors stand over the whole screen while it plays, and go by a key; a scene without an exercise has none."""
+    path = exercise_scene("guided")
+    path.write_text(path.read_text().replace("</spore>", """<exercise task="Touch the ball and come back." time_limit="30">
+<touched name="touch" body="organ" hint="Go to the ball."/><reached name="back" tool="rod" point="-0.07 0 0" after="touch"/></exercise></spore>"""))
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("organ"), "the scene")
+        assert not editor.look("panel|filler", "^Exercise so far$"), "an author has the panel"
+        editor.act("present")
+        editor.find("panel|filler", "^Exercise so far$")
+        editor.find("label", "^Play begins the exercise$")
+        editor.find("label", "^Touch the ball and come back.$")
+        editor.find("label", "^2. Reached, by rod, after touch$")
+        editor.act("step")
+        editor.find("label", "^Under way, 0 of 2 steps$")
+        editor.find("label", "^Go to the ball.$")
+        editor.find("label", "^▸$")
+        editor.act("speed", "s", "0")
+        editor.act("play")
+        editor.find("label", "^Done, passed, 2 of 2 steps$", 120)
+        editor.find("label", r"^\d+\.\d\d of 30 s$")
+        editor.find("label", "^✓$")
+        keep_picture(editor, "guided")
+        editor.act("pause")
+        editor.focus()
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.mouse("mousemove", x + 20, y + height - 150, "click", 1)
+        editor.keys("e")
+        ui.wait(lambda: not editor.look("panel|filler", "^Exercise so far$"), "the steps to go")
+        assert not editor.state("show-guide")
+        editor.act("show-guide")
+        editor.find("panel|filler", "^Exercise so far$")
+        editor.act("open", "s", str(SCENES / "minimal.spore"))
+        ui.wait(lambda: not editor.look("panel|filler", "^Exercise so far$"), "a scene without steps")
+        assert editor.state("present") and not editor.enabled("show-guide")
+
+
+@check
 def a_drag_beside_turns_the_view():
     """left drag beside the organs turns the view and keeps the selection, a click there selects nothing; organs are hidden and shown, from the menu of the right button too."""
     folder_ = folder("scenes") / "aside"

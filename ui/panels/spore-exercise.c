@@ -11,6 +11,7 @@
 #include "ui/document/attempts.h"
 #include "ui/jobs/track-work.h"
 #include "ui/panels/attempt-list.h"
+#include "ui/panels/exercise-look.h"
 #include "ui/panels/exercise-rows.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-property-row.h"
@@ -39,67 +40,6 @@ static SporeSession *session_of(SporeExercisePanel *self) {
   return self->player ? spore_player_get_session(self->player) : NULL;
 }
 
-/* The run. */
-
-/* All of an exercise after one step. Texts are of the session. */
-typedef struct Look {
-  SporeExerciseState state;
-  SporeStepState *steps;
-  SporeMetricState *metrics;
-} Look;
-
-static void take_look(const SporeExercise *exercise, gpointer data) {
-  Look *look = data;
-  look->state = spore_exercise_state(exercise);
-  look->steps = g_new(SporeStepState, look->state.steps);
-  look->metrics = g_new(SporeMetricState, look->state.metrics);
-  for (gsize i = 0; i < look->state.steps; i++) look->steps[i] = spore_exercise_step_state(exercise, i);
-  for (gsize i = 0; i < look->state.metrics; i++) look->metrics[i] = spore_exercise_metric_state(exercise, i);
-}
-
-static void clear_look(Look *look) {
-  g_free(look->steps);
-  g_free(look->metrics);
-}
-
-G_DEFINE_AUTO_CLEANUP_CLEAR_FUNC(Look, clear_look)
-
-static const SporeStepState *find_step(const Look *look, const char *name) {
-  for (gsize i = 0; i < look->state.steps; i++)
-    if (g_str_equal(look->steps[i].name, name)) return &look->steps[i];
-  return NULL;
-}
-
-static const SporeMetricState *find_metric(const Look *look, const char *name) {
-  for (gsize i = 0; i < look->state.metrics; i++)
-    if (g_str_equal(look->metrics[i].name, name)) return &look->metrics[i];
-  return NULL;
-}
-
-/* What the trainee is told next: the hint of the first open step. */
-static const char *hint_of(const Look *look) {
-  for (gsize i = 0; i < look->state.steps; i++)
-    if (look->steps[i].phase == SPORE_STEP_OPEN && look->steps[i].hint) return look->steps[i].hint;
-  return NULL;
-}
-
-static char *clock_text(SporeExercisePanel *self, double time_s) {
-  double limit_s = spore_object_number(section_of(self), "time_limit");
-  return limit_s > 0 ? g_strdup_printf(_("%.2f of %g s"), time_s, limit_s) : g_strdup_printf(_("%.2f s"), time_s);
-}
-
-static char *run_text(SporeExercisePanel *self, const Look *look) {
-  static const char *const phases[SPORE_EXERCISE_PHASES] = {N_("Under way"), N_("Done"), N_("Out of time")};
-  const SporeExerciseState *state = &look->state;
-  g_autofree char *clock = clock_text(self, state->time_s);
-  g_autoptr(GString) text = g_string_new(state->tried ? _("Try-out") : _(phases[state->phase]));
-  g_string_append_printf(text, _(": score %.1f"), state->score);
-  if (state->phase != SPORE_EXERCISE_RUNNING)
-    g_string_append_printf(text, ", %s", state->passed ? _("passed") : _("not passed"));
-  g_string_append_printf(text, _(", %zu of %zu steps, %s"), state->steps_done, state->steps, clock);
-  return g_strdup(text->str);
-}
-
 /* Where there is no run. */
 static const char *idle_text(SporeExercisePanel *self) {
   return spore_object_child_count(section_of(self)) == 0
@@ -113,29 +53,29 @@ static void set_text(GtkWidget *label, const char *text) {
 }
 
 /* look: NULL: there is no run. */
-static void show_state(SporeExercisePanel *self, const Look *look) {
-  const char *hint = look ? hint_of(look) : NULL, *task = spore_object_text(section_of(self), "task");
-  g_autofree char *text = look ? run_text(self, look) : g_strdup(idle_text(self));
+static void show_state(SporeExercisePanel *self, const SporeExerciseLook *look) {
+  g_autofree char *text = look ? spore_exercise_look_text(look, section_of(self)) : g_strdup(idle_text(self));
   set_text(self->state, text);
-  set_text(self->told, hint ? hint : task ? task : "");
+  set_text(self->told, spore_exercise_look_told(look, section_of(self)));
   gtk_widget_set_visible(self->told, *gtk_label_get_text(GTK_LABEL(self->told)) != '\0');
 }
 
 static void show_run(SporeExercisePanel *self) {
   SporeSession *session = session_of(self);
-  g_auto(Look) look = {0};
-  gboolean runs = session && spore_session_read_exercise(session, take_look, &look);
+  g_auto(SporeExerciseLook) look = {0};
+  gboolean runs = spore_exercise_look_take(session, &look);
   show_state(self, runs ? &look : NULL);
   SporeDocument *document = spore_editor_document_get(self->document);
   g_autoptr(GList) steps = gtk_container_get_children(GTK_CONTAINER(self->steps));
   g_autoptr(GList) metrics = gtk_container_get_children(GTK_CONTAINER(self->metrics));
   for (GList *row = steps; row; row = row->next) {
     const SporeObject *step = spore_document_by_id(document, spore_exercise_row_id(row->data));
-    spore_step_row_show(row->data, runs && step ? find_step(&look, spore_object_name(step)) : NULL);
+    spore_step_row_show(row->data, runs && step ? spore_exercise_look_step(&look, spore_object_name(step)) : NULL);
   }
   for (GList *row = metrics; row; row = row->next) {
     const SporeObject *metric = spore_document_by_id(document, spore_exercise_row_id(row->data));
-    spore_metric_row_show(row->data, runs && metric ? find_metric(&look, spore_object_name(metric)) : NULL);
+    spore_metric_row_show(row->data,
+                          runs && metric ? spore_exercise_look_metric(&look, spore_object_name(metric)) : NULL);
   }
 }
 
@@ -153,8 +93,8 @@ static void kept_track(SporeJob *job, gpointer data, const GError *error, gpoint
 /* The run that the attempt ended in is still there, unless the user went back to the start at once. */
 static void keep_track(SporeExercisePanel *self, SporeSession *session, const char *scene,
                        const SporeAttempt *attempt) {
-  g_auto(Look) look = {0};
-  if (!spore_session_read_exercise(session, take_look, &look) || look.state.time_s != attempt->time_s) return;
+  g_auto(SporeExerciseLook) look = {0};
+  if (!spore_exercise_look_take(session, &look) || look.state.time_s != attempt->time_s) return;
   SporeTrackWork *work = spore_track_work_new(scene, attempt, spore_session_recording(session));
   g_autoptr(SporeJob) job = spore_job_start(_("Keeping the attempt"), spore_track_work_run, work, spore_track_work_free,
                                             kept_track, G_OBJECT(self));
@@ -318,9 +258,9 @@ void spore_exercise_panel_set_document(SporeExercisePanel *self, SporeEditorDocu
 
 void spore_exercise_panel_skip(SporeExercisePanel *self, const SporeObject *step) {
   SporeSession *session = session_of(self);
-  g_auto(Look) look = {0};
-  if (!step || !session || !spore_session_read_exercise(session, take_look, &look)) return;
-  const SporeStepState *found = find_step(&look, spore_object_name(step));
+  g_auto(SporeExerciseLook) look = {0};
+  if (!step || !spore_exercise_look_take(session, &look)) return;
+  const SporeStepState *found = spore_exercise_look_step(&look, spore_object_name(step));
   if (found) spore_session_skip_to(session, (gsize)(found - look.steps));
   show_run(self);
 }

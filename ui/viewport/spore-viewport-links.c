@@ -29,7 +29,7 @@ void spore_viewport_links_refresh(SporeViewport *self) {
 /* Links are drawn where the author put them; a run takes the bodies away from there. */
 static gboolean shows_links(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
-  return self->document && (!session || spore_session_snapshot(session)->time_s == 0);
+  return self->document && !self->presented && (!session || spore_session_snapshot(session)->time_s == 0);
 }
 
 static void draw_dot(cairo_t *cr, double x, double y, gboolean chosen) {

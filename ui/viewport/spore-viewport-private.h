@@ -27,6 +27,7 @@ struct _SporeViewport {
   GArray *link_marks;                        /* of the scene's links, see spore-viewport-links.c */
   GMenuModel *link_kinds, *instrument_kinds; /* for menus */
   SporeStageOptions options;
+  gboolean presented;
   gboolean figures; /* in the corner, those of an author, too */
 
   SporeHandEdit edit;    /* of the Edit tool */

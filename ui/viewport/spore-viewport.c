@@ -102,7 +102,8 @@ static void render(SporeViewport *self, int width, int height) {
     self->stale = TRUE;
   }
   if (!self->stale) return;
-  SporeRenderOptions options = {width, height, .grid = TRUE, .antialias = !spore_offscreen_is_software(self->offscreen),
+  SporeRenderOptions options = {width, height, .grid = !self->presented,
+                                .antialias = !spore_offscreen_is_software(self->offscreen),
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;
   gint64 start = g_get_monotonic_time();
@@ -279,7 +280,10 @@ static void tool_clicked(GtkWidget *button, SporeViewport *self) {
 }
 
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
+  self->presented = presented;
   gtk_widget_set_visible(self->notice, presented);
+  gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
+  spore_viewport_redraw(self);
 }
 
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {

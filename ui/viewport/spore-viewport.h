@@ -2,13 +2,13 @@
  *
  * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
  * the wheel zooms to the cursor, right opens a menu; M measures a distance; H hides the selected body, I shows it
- * alone, A shows all; F frames, 1, 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a
- * drag back. With the Lead tool, left moves the instrument and takes it from its track, Shift+left turns it, the wheel
- * moves it in depth, right closes its jaws and presses its pedal; with Shift let go, they stay so; Ctrl+right opens
- * what stays closed by itself. N and P choose the instrument, arrows and Page Up and Down move it, C closes it, O opens
- * it. With the Edit tool, left picks and moves spheres and points of curves, and the chosen one's handle resizes it;
- * the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete deletes. So it does with regions, by their
- * handles; left on the organ puts the chosen one there.
+ * alone, A shows all; E shows or hides the steps of the exercise; F frames, 1, 3, 7 look along the axes, 0 through the
+ * scene's camera and with it, Escape takes a drag back. With the Lead tool, left moves the instrument and takes it from
+ * its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and presses its pedal; with Shift
+ * let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose the instrument, arrows and Page Up
+ * and Down move it, C closes it, O opens it. With the Edit tool, left picks and moves spheres and points of curves, and
+ * the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete
+ * deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
@@ -43,7 +43,8 @@ typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEW
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is being opened: the welcome is hidden. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
-/* The view is shown alone, to others than its author: it says what it is not for. */
+/* The view is shown alone, to others than its author: it says what it is not for, and what is for an author is not
+ * drawn. */
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented);
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
 /* Uses the Edit tool on all regions of the object that holds this one, which is chosen first. */
