@@ -146,7 +146,7 @@ static const char *holder_of(SporeDocument *document, const SporeObject *body) {
  * what a link ties would pull at the other end of the link: these are left out instead. */
 static gboolean has_effect(const Advice *advice, const SporeObject *body, guint32 index) {
   SporeEffectForm form = spore_model_effect_form(spore_world_body_model(advice->run->simulation->world, index));
-  return (form == SPORE_EFFECT_CARRIED || form == SPORE_EFFECT_SHAPED) &&
+  return form != SPORE_EFFECT_STILL &&
          !spore_object_refers_to(spore_document_section(advice->run->document, "links"), body);
 }
 

@@ -75,6 +75,7 @@ static const char *missing_slot(const SporeModelType *type) {
   if (type->heat && (!type->heat->prepare || !type->heat->coagulate)) return "heat";
   if (type->adapt && (!type->adapt->weigh_nodes || !type->adapt->change_nodes || !type->settle)) return "adapt";
   if (type->line && !type->line->path) return "line.path";
+  if (type->particles && !type->particles->carry) return "particles.carry";
   return NULL;
 }
 

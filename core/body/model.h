@@ -192,8 +192,8 @@ typedef struct SporeModelSweep {
 typedef struct SporeModelParticles {
   /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. NULL: they are not. */
   void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
-  /* As a special effect, in place of forces: the state after h seconds, by a formula that is right for any h in air
-   * that is even there. gravity: less the buoyancy, m/s^2. NULL: the model has no such effect. */
+  /* Required. As a special effect, in place of forces: the state after h seconds, by a formula that is right for any h
+   * in air that is even there. gravity: less the buoyancy, m/s^2. q1 and v1 may be q and v. */
   void (*carry)(const SporeModel *model, SporeVec3 gravity, double h, const double *q, const double *v, double *q1,
                 double *v1);
 } SporeModelParticles;
@@ -323,10 +323,6 @@ bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node
 void spore_model_clear(SporeModel *model);
 /* Whether all blocks are nodes: the model has no frame. */
 static inline bool spore_model_is_nodal(const SporeModel *model) { return model->node_count == model->block_count; }
-/* Whether an effect can take the place of the physics of such models. */
-static inline bool spore_model_type_has_effect(const SporeModelType *type) {
-  return !type->particles || type->particles->carry;
-}
 /* Whether the model's elements can be met one after the other. */
 static inline bool spore_model_sweeps(const SporeModel *model) {
   const SporeModelSweep *sweep = model->type->sweep;

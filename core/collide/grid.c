@@ -85,6 +85,15 @@ void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep) {
   else grid->sleeping--;
 }
 
+void spore_grid_set_apart(SporeGrid *grid, uint32_t body, bool apart) {
+  assert(body < grid->body_count);
+  unsigned char flags = grid->bodies[body];
+  if ((flags & SPORE_GRID_APART) == (apart ? SPORE_GRID_APART : 0)) return;
+  grid->bodies[body] = flags ^ SPORE_GRID_APART;
+  if (apart) grid->apart++;
+  else grid->apart--;
+}
+
 /* Unmovable spheres come first, so that only a can be one. */
 static bool pair_sleeps(const SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair) {
   if (!(grid->bodies[spheres->body[pair->b]] & SPORE_GRID_ASLEEP)) return false;
@@ -103,15 +112,30 @@ static void note_passed(SporeGrid *grid, const SporeSpheres *spheres, const Spor
   grid->passed[grid->passed_count++] = contact;
 }
 
+static bool is_apart(const SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair) {
+  return (grid->bodies[spheres->body[pair->a]] | grid->bodies[spheres->body[pair->b]]) & SPORE_GRID_APART;
+}
+
+/* False: there is no room. */
+static bool keep_apart(SporeGrid *grid, const SporePair *pair) {
+  if (grid->apart_count == grid->capacity) return false;
+  grid->apart_pairs[grid->apart_count++] = *pair;
+  return true;
+}
+
 /* Contacts of the listed pairs; *missed: those without room. */
 static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
   size_t contact_count = 0;
   SporeContact beyond;
-  grid->passed_count = 0;
+  grid->passed_count = grid->apart_count = 0;
   for (size_t i = 0; i < grid->pair_count; i++) {
     const SporePair *pair = &grid->pairs[i];
     if (grid->sleeping > 0 && pair_sleeps(grid, spheres, pair)) continue;
     if (!spore_balls_touch(grid->balls + 4 * (size_t)pair->a, grid->balls + 4 * (size_t)pair->b)) continue;
+    if (grid->apart > 0 && is_apart(grid, spheres, pair)) {
+      *missed += !keep_apart(grid, pair);
+      continue;
+    }
     if (grid->strides) note_passed(grid, spheres, pair, dt_s);
     bool room = contact_count < grid->capacity;
     SporeContact *contact = room ? &grid->contacts[contact_count] : &beyond;
@@ -366,6 +390,7 @@ void spore_grid_free(SporeGrid *grid) {
   spore_free(grid->excluded);
   spore_free(grid->contacts);
   spore_free(grid->passed);
+  spore_free(grid->apart_pairs);
   spore_free(grid->pairs);
   spore_free(grid->sorted_pairs);
   spore_free(grid->bucket);
@@ -377,22 +402,26 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity) {
   size_t pair_capacity = CONTACT_PAIRS * contact_capacity;
   SporeContact *contacts = SPORE_NEW_ARRAY(SporeContact, contact_capacity);
   SporeContact *passed = SPORE_NEW_ARRAY(SporeContact, contact_capacity);
+  SporePair *apart_pairs = SPORE_NEW_ARRAY(SporePair, contact_capacity);
   SporePair *pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity),
             *sorted_pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity);
-  if (!contacts || !passed || !pairs || !sorted_pairs) {
+  if (!contacts || !passed || !apart_pairs || !pairs || !sorted_pairs) {
     spore_free(contacts);
     spore_free(passed);
+    spore_free(apart_pairs);
     spore_free(pairs);
     spore_free(sorted_pairs);
     return false;
   }
   spore_free(grid->contacts);
   spore_free(grid->passed);
+  spore_free(grid->apart_pairs);
   spore_free(grid->pairs);
   spore_free(grid->sorted_pairs);
   grid->contacts = contacts;
   grid->passed = passed;
-  grid->passed_count = 0;
+  grid->apart_pairs = apart_pairs;
+  grid->passed_count = grid->apart_count = 0;
   grid->pairs = pairs;
   grid->sorted_pairs = sorted_pairs;
   grid->capacity = contact_capacity;
@@ -409,6 +438,12 @@ size_t spore_grid_passed(const SporeGrid *grid, const SporeContact **passed) {
   assert(passed);
   *passed = grid->passed;
   return grid->passed_count;
+}
+
+size_t spore_grid_apart(const SporeGrid *grid, const SporePair **pairs) {
+  assert(pairs);
+  *pairs = grid->apart_pairs;
+  return grid->apart_count;
 }
 
 /* Pairs of bodies that would touch but for their group. */

@@ -60,6 +60,9 @@ size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt
 /* Two bodies that do not move, asleep or unmovable, are not looked at for contacts with each other. */
 void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep);
 
+/* Sets a body apart, or no more: it has no contacts, and its pairs are told by spore_grid_apart. */
+void spore_grid_set_apart(SporeGrid *grid, uint32_t body, bool apart);
+
 /* Those of the last detection; valid until the next one. */
 const SporeContact *spore_grid_contacts(const SporeGrid *grid);
 size_t spore_grid_capacity(const SporeGrid *grid);
@@ -69,6 +72,10 @@ size_t spore_grid_capacity(const SporeGrid *grid);
  * The normal points against the way of a past b, at the speed -gap_speed. By (a, b); returns their number, of which no
  * more are kept than contacts are. */
 size_t spore_grid_passed(const SporeGrid *grid, const SporeContact **passed);
+
+/* Pairs of spheres of which one at least is of a body that is set apart, and that may touch in the step that the last
+ * detection was for. By (a, b); returns their number. */
+size_t spore_grid_apart(const SporeGrid *grid, const SporePair **pairs);
 
 /* Pairs of bodies, a body with itself included, that the filter lets through. */
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count);

@@ -10,21 +10,18 @@ enum {
   SPORE_GRID_SELF = 2,
   SPORE_GRID_ASLEEP = 4,
   SPORE_GRID_ACTIVE = 8,
-  SPORE_GRID_SOFT = 16
+  SPORE_GRID_SOFT = 16,
+  SPORE_GRID_APART = 32
 };
-
-typedef struct SporePair {
-  uint32_t a, b; /* a < b */
-} SporePair;
 
 /* Steps without lists after one that did not pay; twice as many for each in a row. */
 #define SPORE_GRID_SHORTEST_PAUSE 8
 
 struct SporeGrid {
   size_t count, static_count, body_count, capacity;
-  size_t sleeping;       /* bodies */
-  unsigned char *bodies; /* SPORE_GRID_ flags */
-  uint32_t *group;       /* of the bodies; NULL: nobody is in one */
+  size_t sleeping, apart; /* bodies */
+  unsigned char *bodies;  /* SPORE_GRID_ flags */
+  uint32_t *group;        /* of the bodies; NULL: nobody is in one */
   SporeCellScale scale;
   SporeCells unmovable, moving; /* moving.unsorted: balls with their skins */
   double *balls;                /* count x 4: ball that a sphere stays in during this step; reach < 0: not finite */
@@ -44,6 +41,8 @@ struct SporeGrid {
   SporeContact *contacts; /* capacity */
   SporeContact *passed;   /* capacity: see spore_grid_passed */
   size_t passed_count;
+  SporePair *apart_pairs; /* capacity: see spore_grid_apart */
+  size_t apart_count;
   size_t pair_capacity, pair_count, missed_pairs;
   SporePair *pairs, *sorted_pairs; /* pair_capacity; pairs: by (a, b) once found */
   uint32_t *bucket;                /* count + 1 */

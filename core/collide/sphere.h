@@ -35,4 +35,8 @@ typedef struct SporeContact {
   double gap_speed; /* m/s, along the normal, negative when approaching */
 } SporeContact;
 
+typedef struct SporePair {
+  uint32_t a, b; /* sphere indices, a < b */
+} SporePair;
+
 #endif

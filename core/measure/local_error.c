@@ -63,7 +63,7 @@ static bool is_same(const SporeLocalErrorBody *kept, const SporeModel *model) {
 }
 
 static void keep_before(SporeLocalErrorBody *kept, const SporeWorld *world, uint32_t body) {
-  kept->model = spore_world_body_model(world, body);
+  kept->model = spore_world_body_is_effect(world, body) ? NULL : spore_world_body_model(world, body);
   if (!kept->model) return;
   kept->node_count = kept->model->node_count;
   assert(kept->node_count <= kept->capacity);

@@ -89,9 +89,6 @@ static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role)
   if (role != SPORE_PASSIVE)
     spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, or the role passive"),
                     _("\"%s\" is to be an effect, and physics does not move it anyway"), name);
-  else if (!spore_body_has_effect(body))
-    spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical"),
-                    _("\"%s\" is to be an effect, and there is none for its model: it is simulated"), name);
   else if (holder)
     spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical, or take the link away"),
                     _("\"%s\" is an effect, so that it does not give way to the link \"%s\""), name,

@@ -148,11 +148,10 @@ static gboolean is_smoke(const SporeObject *body) {
   return particles && particles->puff;
 }
 
-/* Whether an effect moves the body: it does not fall. */
+/* Whether an effect moves the body that does not fall; drops do. */
 static gboolean is_effect(const Start *start, const SporeObject *body) {
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  return spore_body_has_effect(body) &&
-         spore_fidelity_state(start->check->document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
+  return !particles_of(body) && spore_fidelity_state(start->check->document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
 }
 
 /* Whether the body falls: physics moves it, and no link holds it. */

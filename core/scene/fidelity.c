@@ -4,11 +4,6 @@
 #include "core/scene/run_hash.h"
 #include "core/scene/schema_fields.h"
 
-gboolean spore_body_has_effect(const SporeObject *body) {
-  const SporeObject *model = spore_body_model_object(body);
-  return !model || spore_model_type_has_effect(spore_object_type(model)->model);
-}
-
 static char *hash_of(SporeDocument *document) {
   return g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_document_advice_hash(document));
 }

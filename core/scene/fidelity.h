@@ -4,8 +4,6 @@
 
 #include "core/scene/document.h"
 
-/* Whether an effect can take the place of the physics of the body's model. */
-gboolean spore_body_has_effect(const SporeObject *body);
 /* What the fidelity of a body comes to. */
 typedef enum SporeFidelityState {
   SPORE_FIDELITY_IS_PHYSICAL,

@@ -200,7 +200,8 @@ static const SporeParameter fidelity_parameters[] = {
      FIELD(SporeFidelityFields, mode),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("What moves the body. physical: its model. effect: a formula that costs next to nothing and that other "
-               "bodies do not feel: smoke goes with the air, tissue keeps its shape, gives way to instruments and goes "
+               "bodies do not feel: smoke goes with the air, drops of a fluid fall, lie on what they meet and pool, "
+               "tissue keeps its shape, gives way to instruments and goes "
                "with jaws that hold it, a rigid body stands still. auto: what was advised, as long as that holds for "
                "the scene. It may change "
                "while it runs.")},

@@ -106,8 +106,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->grade = SPORE_LOD_FINE;
   body->model = from->model;
   body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
-  body->effect.on = body->effect.at_start =
-      from->effect && from->model && spore_model_effect_form(from->model) != SPORE_EFFECT_NONE;
+  body->effect.on = body->effect.at_start = from->effect && from->model;
   body->collision.fields = from->contact;
   body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
   body->method.integrator = body->method.chosen =
@@ -343,7 +342,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   bool made =
       create_bodies(world, description, error) && create_spheres(world, description, error) && go_on(world) &&
       spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
-      spore_world_create_particles(world, description, error) && go_on(world) &&
+      spore_world_create_particles(world, description, error) && spore_world_create_effects(world, error) &&
+      go_on(world) &&
       ((spore_world_create_refinement(world) && spore_world_create_coupled_rooms(world) && prepare_sweeps(world)) ||
        no_memory(error)) &&
       spore_world_create_factors(world, error) && go_on(world) && spore_world_create_lod(world, description, error) &&

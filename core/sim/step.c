@@ -105,6 +105,19 @@ static double integrate_work(const SporeWorld *world) {
   return sum;
 }
 
+#define EFFECT_US 5  /* a body */
+#define DROP_US 0.05 /* a drop, each time that drops move */
+
+static double effects_work(const SporeWorld *world) {
+  double sum = 0;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    double times = world->solver.time_step / SPORE_POUR_PACE_S;
+    if (body->effect.on) sum += body->effect.drops.from ? times * DROP_US * (double)body->block_count : EFFECT_US;
+  }
+  return sum;
+}
+
 static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)spore_world_dof(world); }
 
 /* The stages of a step. Contacts and links are found from `detect` to `link` and do not change in the rest of the
@@ -147,7 +160,8 @@ static const SporeStageType stages[] = {
     {"accept", has_moving, spore_world_accept, bodies, /**/
      N_("bodies that move have a next state"), N_("no body moves"), 0.05, 0.02},
     {"effects", spore_world_has_effects, spore_world_move_effects, effects, /**/
-     N_("effects move bodies in place of physics"), N_("physics moves all bodies that no device moves"), 0.05, 5},
+     N_("effects move bodies in place of physics"), N_("physics moves all bodies that no device moves"), 0.05, 0,
+     effects_work},
     {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
      N_("particles come and go: by suction, by emitters, or as they dissolve"),
      N_("nothing sucks particles away or lets them out"), 0.1, 0.02},

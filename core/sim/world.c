@@ -23,6 +23,7 @@ static void clear_body(SporeBody *body) {
   spore_block_pattern_clear(&body->changing.pattern);
   spore_block_room_clear(&body->changing.room);
   spore_free(body->changing.pinned);
+  spore_body_clear_effect(body);
   if (body->lod) spore_lod_free(body);
   else if (body->model) body->model->type->destroy(body->model);
 }

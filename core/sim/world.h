@@ -468,8 +468,8 @@ bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
 /* What a body of a model does while a special effect takes the place of its physics. */
 typedef enum SporeEffectForm {
-  SPORE_EFFECT_NONE,    /* its model has no such effect */
   SPORE_EFFECT_CARRIED, /* its particles go with the air, and dissolve */
+  SPORE_EFFECT_POURED,  /* its drops fall, lie on what they meet, and pool */
   SPORE_EFFECT_SHAPED,  /* it keeps the shape of time 0, and gives way to what devices move */
   SPORE_EFFECT_STILL    /* it stands still */
 } SporeEffectForm;

@@ -85,6 +85,12 @@ static inline bool spore_body_is_passive(const SporeWorld *world, uint32_t body)
 static inline bool spore_body_is_physical(const SporeBody *body) {
   return body->role == SPORE_PASSIVE && !body->effect.on;
 }
+/* The time for which the body's drops go on in this step, s; 0: it is not poured, or they rest in this step. */
+static inline double spore_body_pour_time(const SporeWorld *world, const SporeBody *body) {
+  if (!body->effect.on || !body->effect.drops.from) return 0;
+  double steps = fmax(1, round(SPORE_POUR_PACE_S / world->solver.time_step));
+  return world->state.step % (uint64_t)steps == 0 ? steps * world->solver.time_step : 0;
+}
 /* Whether physics moves the body in this step. */
 static inline bool spore_body_moves(const SporeBody *body) {
   return spore_body_is_physical(body) && !body->frozen && !body->sleep.asleep;

@@ -311,7 +311,21 @@ static const char *notice(const SporeModel *model, const double *q) {
              : NULL;
 }
 
-static const SporeModelParticles particles = {.puff = NULL};
+/* Drops fall freely but for the drag: v' = g - d v. */
+static void carry(const SporeModel *model, SporeVec3 gravity, double h, const double *q, const double *v, double *q1,
+                  double *v1) {
+  assert(model->type == &spore_lennard_jones && h > 0);
+  double drag = ((const Fluid *)model)->drag, whole = drag > 0 ? -expm1(-drag * h) / drag : h;
+  double fall = drag * h > 1e-6 ? (h - whole) / drag : 0.5 * h * h, kept = 1 - drag * whole;
+  for (size_t i = 0; i < 3 * model->block_count; i += 3) {
+    SporeVec3 at = spore_vec3_load(q + i), speed = spore_vec3_load(v + i);
+    at = spore_vec3_add_scaled(at, whole, speed);
+    spore_vec3_store(q1 + i, spore_vec3_add_scaled(at, fall, gravity));
+    spore_vec3_store(v1 + i, spore_vec3_add_scaled(spore_vec3_scale(kept, speed), whole, gravity));
+  }
+}
+
+static const SporeModelParticles particles = {.carry = carry};
 
 const SporeModelType spore_lennard_jones = {
     .name = "lennard_jones",

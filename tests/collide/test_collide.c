@@ -271,6 +271,35 @@ static void test_passed(void) {
   }
 }
 
+/* A body that is set apart has no contacts, and all that it touches is told; when it is back, all is as before. */
+static void test_set_apart(void) {
+  Scene scene;
+  const SporePair *pairs;
+  scene_random(&scene, 500, 150, 1, 0.005, 0.05, (SporeVec3){0, 0, 0});
+  SporeGrid *grid = create(&scene);
+  size_t count = detect(grid, &scene.spheres, 1e-2), left = 0, told = 0;
+  g_assert_cmpuint(spore_grid_apart(grid, &pairs), ==, 0);
+  g_autofree SporeContact *whole = g_memdup2(spore_grid_contacts(grid), count * sizeof *whole);
+  uint32_t apart = scene.spheres.body[whole[count / 2].b];
+  spore_grid_set_apart(grid, apart, true);
+  size_t now = detect(grid, &scene.spheres, 1e-2), pair_count = spore_grid_apart(grid, &pairs);
+  for (size_t i = 0; i < count; i++) {
+    bool is_apart = scene.spheres.body[whole[i].a] == apart || scene.spheres.body[whole[i].b] == apart;
+    for (size_t k = 0; is_apart && k < pair_count; k++) told += pairs[k].a == whole[i].a && pairs[k].b == whole[i].b;
+    if (is_apart) continue;
+    g_assert_cmpuint(left, <, now);
+    g_assert_cmpmem(&whole[i], sizeof *whole, &spore_grid_contacts(grid)[left++], sizeof *whole);
+  }
+  g_assert_cmpuint(left, ==, now);
+  g_assert_cmpuint(told, ==, count - now);
+  g_assert_cmpuint(told, >, 0);
+  spore_grid_set_apart(grid, apart, false);
+  g_assert_cmpuint(detect(grid, &scene.spheres, 1e-2), ==, count);
+  g_assert_cmpmem(spore_grid_contacts(grid), count * sizeof *whole, whole, count * sizeof *whole);
+  spore_grid_free(grid);
+  scene_clear(&scene);
+}
+
 /* Two spheres of 1 mm: one passed the other 0.5 mm off its middle; 1.5 mm off it only grazed it; and it came no nearer
  * than where it stands. */
 static void test_passed_by(void) {
@@ -553,6 +582,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/collide/empty", test_empty);
   g_test_add_func("/collide/without-memory", test_without_memory);
   g_test_add_func("/collide/passed", test_passed);
+  g_test_add_func("/collide/set-apart", test_set_apart);
   g_test_add_func("/collide/passed-by", test_passed_by);
   int status = g_test_run();
   g_rand_free(random_source);

@@ -243,8 +243,6 @@ CHECK = [
     ("the name \"%s\" is a guess: it stands at its label's number in a common set",
      ["see whether it is that; rename it if not; then set name_guessed to false"],
      scene(floor(), stone(STONE, BALL, name_guessed="true")), scene(floor(), stone(STONE, BALL, name_guessed="false"))),
-    ("\"%s\" is to be an effect, and there is none for its model: it is simulated", ["make the mode physical"],
-     scene(stone(FLUID, EFFECT)), scene(stone(SMOKE, EFFECT))),
     ("\"%s\" is to be an effect, and physics does not move it anyway", ["make the mode physical, or the role passive"],
      scene(floor(BALL, EFFECT)), scene(floor(), stone(STONE, BALL, EFFECT))),
     ("\"%s\" is an effect, so that it does not give way to the link \"%s\"", ["make the mode physical, or take the link away"],

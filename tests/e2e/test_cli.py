@@ -1132,6 +1132,11 @@ def effects_change_nothing_else():
         assert ("effects" in stages) == (mode == "effect"), stages
     different = {name for name in hashes["effect"] if hashes["effect"][name] != hashes["physical"][name]}
     assert different == {"steam"}, different
+    poured, lapped = (report("run", SCENES / "plate3-blood.spore", "-n", "1500", "--set", f"bodies/blood/fidelity/mode={mode}")
+                      for mode in ("effect", "physical"))
+    hashes = [{body["name"]: body["hash"] for body in answer["bodies"]} for answer in (poured, lapped)]
+    assert {name for name in hashes[0] if hashes[0][name] != hashes[1][name]} == {"blood"}, hashes
+    assert poured["dof"] == 0 < lapped["dof"] and not poured["monitor"]["messages"], poured
 
 
 def hanging(name, density, links='<spring name="tie" body_a="organ" body_b="extra" point_a="0 -0.03 0" point_b="0 -0.07 0" stiffness="20" damping="0.05"/>'):

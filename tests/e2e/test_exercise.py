@@ -447,6 +447,11 @@ def pool_is_sucked_dry_by_its_track():
         slow = run_exercise("exercise-suction", 26000, "--set", "tools/suction/rate=8")
         assert left(slow) == ["half", "dry"] and slow["score"] == 0 and not slow["passed"], slow
         assert 0.2 < metrics(exercise)["blood"]["value"] < 0.9, exercise
+        counted = metrics(exercise)["blood"]["value"]
+    # blood as an effect is sucked dry too, at steps a hundred times as long
+    drops = run_exercise("exercise-suction", 420, "--dt", "0.01", "--set", "bodies/blood/fidelity/mode=effect")
+    assert drops["passed"] and drops["score"] == 100 and 3 < drops["time_s"] < 4.2, drops
+    assert short or abs(metrics(drops)["blood"]["value"] - counted) < 0.2 * counted, drops
 
 
 @check

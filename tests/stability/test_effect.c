@@ -232,19 +232,150 @@ static void test_rigid_stands(void) {
   rig_free(rig);
 }
 
-/* A fluid has no effect: it stays physics, and says so where it is asked for while it runs. */
-static void test_none(void) {
-  SporeTriangleMesh box;
+#define PIT 0.03    /* width of the pit, m */
+#define STONE 0.002 /* radius of the spheres that it is made of, m */
+#define CUBE 0.014  /* side of the blood, m */
+#define DROPS 200
+
+static const SporeSphereSet *own_spheres(Rig *rig, const SporeModel *model) {
+  SporeSphereSet *set = g_new0(SporeSphereSet, 1);
+  SporeError error = SPORE_ERROR_INIT;
+  if (!model->type->spheres(model, set, &error)) g_error("%s", error.message);
+  g_ptr_array_add(rig->sets, set);
+  return set;
+}
+
+static const SporeSphereSet *pit(Rig *rig) {
+  g_autoptr(GArray) points = g_array_new(FALSE, FALSE, sizeof(double));
+  int side = (int)lround((PIT + 2 * STONE) / STONE);
+  for (int i = 0; i <= side; i++)
+    for (int j = 0; j <= side; j++)
+      for (int k = 0; k <= side; k++) {
+        bool wall = i == 0 || i == side || k == 0 || k == side;
+        const double at[3] = {(i - 0.5 * side) * STONE, (j - 1) * STONE, (k - 0.5 * side) * STONE};
+        if (wall || j == 0) g_array_append_vals(points, at, 3);
+      }
+  return rig_spheres(rig, (const double *)points->data, points->len / 3, STONE);
+}
+
+/* Blood over a pit, as an effect; nothing but the pit and the blood, but for what `extra` adds. */
+static Rig *pour(double h, void (*extra)(Rig *rig)) {
   Rig *rig = rig_new();
-  shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
-  rig->description.solver.time_step = 1e-4;
-  rig_passive(rig, "blood", rig_fluid_model(&box, 30, NULL), NULL)->effect = true;
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0.02, 0), spore_vec3(CUBE, CUBE, CUBE));
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.time_step = h;
+  SporeModel *model = rig_fluid_model(&cube, DROPS, NULL);
+  rig_passive(rig, "blood", model, own_spheres(rig, model))->effect = true;
+  rig_unmovable(rig, "pit", pit(rig));
+  if (extra) extra(rig);
+  return rig;
+}
+
+/* Drops come to lie in the pit as a level pool of the fluid's volume, at short steps and at such as physics never
+ * takes. */
+static void test_drops_pool(void) {
+  static const double steps[] = {5e-4, 4e-3, 0.1};
+  for (unsigned c = 0; c < G_N_ELEMENTS(steps); c++) {
+    Rig *rig = pour(steps[c], NULL);
+    SporeWorld *world = rig_build(rig);
+    size_t n = spore_world_body_model(world, 0)->node_count;
+    unsigned count = (unsigned)lround(1 / steps[c]);
+    rig_run(world, count / 2);
+    uint64_t before = spore_allocation_count(); /* by now there were as many near pairs as ever */
+    rig_run(world, count - count / 2);
+    double mean = 0, fastest = 0, off = 0, level = 2 * CUBE * CUBE * CUBE / (PIT * PIT), sides[2] = {0, 0};
+    for (size_t i = 0; i < n; i++) {
+      SporeVec3 at = spore_vec3_load(spore_world_q(world, 0) + 3 * i);
+      mean += at.y / (double)n;
+      sides[at.x > 0] += at.y / (0.5 * (double)n);
+      fastest = fmax(fastest, spore_vec3_length(spore_vec3_load(spore_world_v(world, 0) + 3 * i)));
+      off = fmax(off, fmax(fmax(fabs(at.x), fabs(at.z)) - 0.5 * PIT, -at.y));
+    }
+    g_test_message("steps of %g s: middle %.2f mm high, of %.2f mm; %.2g mm out of the pit; up to %.2g m/s", steps[c],
+                   1e3 * mean, 0.25e3 * level, 1e3 * off, fastest);
+    g_assert_cmpfloat(fabs(mean - 0.25 * level), <, 0.08 * level);
+    g_assert_cmpfloat(fabs(sides[1] - sides[0]), <, 0.1 * level);
+    g_assert_cmpfloat(off, <, 0.2 * STONE);
+    g_assert_cmpfloat(fastest, <, 0.1);
+    g_assert_cmpuint(spore_world_dof(world), ==, 0);
+    g_assert_cmpuint(spore_allocation_count(), ==, before);
+    rig_free(rig);
+  }
+}
+
+static void add_ball(Rig *rig) {
+  SporeTriangleMesh box;
+  shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.008, 0.008, 0.008));
+  rig_passive(rig, "ball", rig_surface_model(&spore_rigid_body, &box, NULL), rig_sphere(rig, 0.005))->pose.position =
+      spore_vec3(0.001, 0.008, 0);
+}
+
+/* Drops lie on a ball and beside it; the ball, which comes down meanwhile, goes as it does where they are far off. */
+static void test_drops_push_nothing(void) {
+  uint64_t hashes[2];
+  for (int away = 0; away < 2; away++) {
+    Rig *rig = pour(2e-3, add_ball);
+    if (away) g_array_index(rig->bodies, SporeBodyDescription, 0).pose.position = spore_vec3(1, 0, 0);
+    SporeWorld *world = rig_build(rig);
+    double nearest = HUGE_VAL;
+    rig_run(world, 400);
+    SporeVec3 ball = spore_vec3_load(spore_world_q(world, 2));
+    for (size_t i = 0; i < spore_world_body_model(world, 0)->node_count; i++)
+      nearest = fmin(nearest, spore_vec3_distance(spore_vec3_load(spore_world_q(world, 0) + 3 * i), ball));
+    g_test_message("the nearest drop is %.2f mm from the middle of the ball", 1e3 * nearest);
+    if (away) g_assert_cmpfloat(nearest, >, 0.5);
+    else g_assert_cmpfloat(nearest, >, 0.005);
+    if (!away) g_assert_cmpfloat(nearest, <, 0.007);
+    hashes[away] = spore_world_body_hash(world, 2);
+    rig_free(rig);
+  }
+  g_assert_cmphex(hashes[0], ==, hashes[1]);
+}
+
+/* Friction holds drops on a slope where the angle of friction is wider, and nothing holds them without. */
+static double slipped(double friction) {
+  Rig *rig = pour(2e-3, NULL);
+  SporeBodyDescription *bodies = (SporeBodyDescription *)rig->bodies->data;
+  rig->description.gravity = spore_vec3(4, -9, 0);
+  bodies[0].contact.friction = bodies[1].contact.friction = friction;
+  bodies[1].spheres = rig_floor(rig, 80, 40, 0.002, 0.004);
   SporeWorld *world = rig_build(rig);
-  g_assert_false(spore_world_body_is_effect(world, 0));
-  set_effect(world, 0, true);
-  spore_world_step(world);
-  g_assert_true(rig_said(world, "blood: its model has no effect"));
-  g_assert_false(spore_world_body_is_effect(world, 0));
+  double way[2] = {0, 0};
+  for (int half = 0; half < 2; half++) {
+    rig_run(world, rig_sanitized ? 150 : 300);
+    for (size_t i = 0; i < DROPS / 2; i++) way[half] += spore_world_q(world, 0)[3 * i] / (DROPS / 2);
+  }
+  rig_free(rig);
+  return way[1] - way[0];
+}
+
+static void test_drops_slip(void) {
+  double held = slipped(1), loose = slipped(0);
+  g_test_message("in the second half %.2f mm down the slope with friction, %.2f mm without", 1e3 * held, 1e3 * loose);
+  g_assert_cmpfloat(fabs(held), <, 2e-3);
+  g_assert_cmpfloat(loose, >, 0.05);
+}
+
+/* Blood becomes an effect and blood again without a jump, and a reset is time 0 again to the bit. */
+static void test_drops_there_and_back(void) {
+  Rig *rig = pour(1e-4, NULL);
+  g_array_index(rig->bodies, SporeBodyDescription, 0).effect = false;
+  SporeWorld *world = rig_build(rig);
+  uint64_t start = spore_world_hash(world);
+  for (int on = 1; on >= 0; on--) {
+    rig_run(world, 400);
+    double before = spore_world_q(world, 0)[1], speed = spore_world_v(world, 0)[1];
+    set_effect(world, 0, on);
+    rig_run(world, 20); /* drops go on once in so many */
+    double way = spore_world_q(world, 0)[1] - before;
+    g_assert_true(spore_world_body_is_effect(world, 0) == on);
+    g_assert_cmpfloat(fabs(way - 2e-3 * speed), <, 3e-4); /* of drops 2.3 mm wide, which make some room */
+    g_assert_cmpuint(spore_world_dof(world), ==, on ? 0 : 3 * spore_world_body_model(world, 0)->node_count);
+  }
+  g_assert_true(rig_finite(world));
+  spore_world_reset(world);
+  g_assert_cmphex(spore_world_hash(world), ==, start);
   rig_free(rig);
 }
 
@@ -267,7 +398,10 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/others-do-not-feel-it", test_others_do_not_feel_it);
   g_test_add_func("/stability/effect/there-and-back", test_there_and_back);
   g_test_add_func("/stability/effect/rigid-stands", test_rigid_stands);
-  g_test_add_func("/stability/effect/none", test_none);
+  g_test_add_func("/stability/effect/drops-pool", test_drops_pool);
+  g_test_add_func("/stability/effect/drops-push-nothing", test_drops_push_nothing);
+  g_test_add_func("/stability/effect/drops-slip", test_drops_slip);
+  g_test_add_func("/stability/effect/drops-there-and-back", test_drops_there_and_back);
   g_test_add_func("/stability/effect/dent", test_dent);
   return g_test_run();
 }

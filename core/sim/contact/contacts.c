@@ -17,6 +17,14 @@ static void map_active(SporeWorld *world, const SporeBody *body, double *centre,
   for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
 }
 
+/* Drops go in this step for as long as they go at all, and fall meanwhile. */
+static void map_drops(const SporeWorld *world, const SporeBody *body, double *velocity) {
+  double time_s = spore_body_pour_time(world, body), part = time_s / world->solver.time_step;
+  SporeVec3 gained = spore_vec3_scale(0.5 * time_s, spore_body_gravity(world, body));
+  for (size_t i = 0; i < body->collision.spheres.point_count; i++, velocity += 3)
+    spore_vec3_store(velocity, spore_vec3_scale(part, spore_vec3_add(spore_vec3_load(velocity), gained)));
+}
+
 /* Notes where the spheres of the body are, before they follow the state. */
 static void keep_centres(const SporeWorld *world, SporeBody *body, bool moves) {
   size_t start = 3 * body->collision.start, count = 3 * body->collision.spheres.point_count;
@@ -50,6 +58,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     spore_mapping_positions(&body->collision.spheres, q, centre);
     if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
     else spore_mapping_velocities(&body->collision.spheres, q, v, velocity);
+    if (body->effect.on && body->effect.drops.from) map_drops(world, body, velocity);
     forget_ways(world, body);
   }
   world->contact.mapped = world->state.snapshots.newest;

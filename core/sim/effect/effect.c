@@ -5,12 +5,13 @@
 #include <string.h>
 
 #include "core/base/text.h"
+#include "core/sim/effect/drops.h"
 #include "core/sim/effect/shape.h"
 #include "core/sim/world_private.h"
 
 SporeEffectForm spore_model_effect_form(const SporeModel *model) {
-  if (!spore_model_type_has_effect(model->type)) return SPORE_EFFECT_NONE;
-  if (model->type->particles) return SPORE_EFFECT_CARRIED;
+  if (model->type->particles)
+    return model->type->particles->puff || !model->type->spheres ? SPORE_EFFECT_CARRIED : SPORE_EFFECT_POURED;
   return spore_model_is_nodal(model) ? SPORE_EFFECT_SHAPED : SPORE_EFFECT_STILL;
 }
 
@@ -50,9 +51,10 @@ static bool stand(SporeWorld *world, SporeBody *body) {
 
 static void move(SporeWorld *world, SporeBody *body) {
   SporeEffectForm form = spore_model_effect_form(body->model);
-  assert(form != SPORE_EFFECT_NONE);
   if (form == SPORE_EFFECT_CARRIED) {
     carry(world, body);
+  } else if (form == SPORE_EFFECT_POURED) {
+    spore_body_pour(world, body);
   } else {
     bool shaped = form == SPORE_EFFECT_SHAPED && keeps_nodes(body);
     if (!(shaped ? spore_body_shape_effect(world, body) : stand(world, body))) return;
@@ -66,10 +68,24 @@ void spore_world_move_effects(SporeWorld *world) {
     if (world->bodies[b].effect.on) move(world, &world->bodies[b]);
 }
 
+/* Drops are read by nothing that touches: the grid only tells what is near them. */
+static void set_apart(SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->effect.drops.from && world->contact.grid) spore_grid_set_apart(world->contact.grid, index, body->effect.on);
+}
+
+bool spore_world_create_effects(SporeWorld *world, SporeError *error) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->model || spore_model_effect_form(body->model) != SPORE_EFFECT_POURED) continue;
+    if (!spore_body_make_drops(body, error)) return false;
+    set_apart(world, b);
+  }
+  return true;
+}
+
 /* Why the body cannot become that (translated), or NULL. */
 static const char *fault_of(const SporeBody *body, bool on) {
-  if (on && spore_model_effect_form(body->model) == SPORE_EFFECT_NONE)
-    return _("its model has no effect in its place; it stays as it is");
   if (!on && body->effect.too_long)
     return _("the time step is too long for its physics; it stays an effect until the scene has a smaller time_step");
   return NULL;
@@ -87,6 +103,7 @@ void spore_world_set_effect(SporeWorld *world, uint32_t index, bool on) {
   spore_world_wake_all(world);
   body->effect.on = on;
   body->effect.settled = false;
+  set_apart(world, index);
   world->solve.watch.started = false;
   spore_body_thaw(body);
   spore_body_forget_steps(world, body);

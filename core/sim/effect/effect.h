@@ -4,13 +4,30 @@
 #ifndef SPORE_SIM_EFFECT_H
 #define SPORE_SIM_EFFECT_H
 
+#include "core/collide/sphere.h"
 #include "core/sim/state/state.h"
+
+/* The drops of a fluid that may be poured. */
+#define SPORE_NO_DROP UINT32_MAX
+typedef struct SporeDrops {
+  double radius;          /* m */
+  bool meet;              /* there is a collision sphere at each of them */
+  uint32_t mask;          /* of slots of the table */
+  uint32_t *first, *next; /* the first drop in a slot, the next in the slot of a drop; or SPORE_NO_DROP */
+  size_t pair_count, pair_room;
+  SporePair *pairs; /* pair_room: drops that are near each other */
+  double *from;     /* 3 a drop: where it was, m; NULL: the body cannot be poured */
+} SporeDrops;
+
+/* Drops move no more often, s: nobody sees a drop move in less. */
+#define SPORE_POUR_PACE_S 2e-3
 
 /* What a body knows of its effect. */
 typedef struct SporeBodyEffect {
   bool on, at_start; /* it is an effect now; at time 0 */
   bool settled;      /* it has the shape of time 0, and keeps that until an instrument comes near */
   bool too_long;     /* the world's time step is too long for the body's physics: it stays an effect */
+  SporeDrops drops;
 } SporeBodyEffect;
 
 /* How an instrument dents tissue: the displacement that a smooth push makes in a large elastic block, made smaller
@@ -23,6 +40,9 @@ typedef struct SporeDent {
 /* How far the dents move what lies at `place` (m) at rest. */
 SporeVec3 spore_dents_at(const SporeDent *dents, size_t count, SporeVec3 place);
 
+/* Makes what effects need while the world runs. */
+bool spore_world_create_effects(SporeWorld *world, SporeError *error);
+void spore_body_clear_effect(SporeBody *body);
 /* Stage: moves all bodies that are effects, in the next state. */
 void spore_world_move_effects(SporeWorld *world);
 /* Whether some body is an effect now. */

@@ -172,10 +172,10 @@ static double depth_in(const SporeWorld *world, const SporeJaw *jaw, SporeVec3 c
   return deepest;
 }
 
-/* Whether jaws feel the body where it is an effect. */
+/* Whether jaws feel the body where it is an effect; drops they do not feel. */
 static bool pinch_body(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body) {
   int64_t group = world->bodies[jaws->jaw[0].body].collision.fields.group;
-  return body->effect.on && !(group != 0 && group == body->collision.fields.group);
+  return body->effect.on && !body->effect.drops.from && !(group != 0 && group == body->collision.fields.group);
 }
 
 /* Whether both jaws have a sphere of the effect between them. */
