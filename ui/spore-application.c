@@ -7,11 +7,13 @@
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
 #include "ui/jobs/under-way.h"
+#include "ui/spore-look.h"
 #include "ui/spore-window.h"
 
 struct _SporeApplication {
   GtkApplication parent;
   SporeSchema *schema;
+  SporeLook *look;
   char *version, *scenes;
   gboolean recovery_offered;
 };
@@ -82,7 +84,7 @@ static void spore_application_startup(GApplication *application) {
   SporeApplication *self = SPORE_APPLICATION(application);
   G_APPLICATION_CLASS(spore_application_parent_class)->startup(application);
   self->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
-  g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", TRUE, NULL);
+  self->look = spore_look_new(application);
   load_style();
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   for (gsize i = 0; i < G_N_ELEMENTS(accelerators); i++)
@@ -127,6 +129,7 @@ static void spore_application_open(GApplication *application, GFile **files, int
 
 /* Works that were cancelled end before the program does. */
 static void spore_application_shutdown(GApplication *application) {
+  g_clear_pointer(&SPORE_APPLICATION(application)->look, spore_look_free);
   G_APPLICATION_CLASS(spore_application_parent_class)->shutdown(application);
   spore_works_wait();
 }

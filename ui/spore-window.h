@@ -37,7 +37,8 @@
  *               exercise while present is on), filter, measure [s "distance", "angle" or "volume"],
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
- *   others      search (for any of these), open-menu, report [s message]
+ *   others      search (for any of these), open-menu, report [s message]; of the application: look [s "system", "light"
+ *               or "dark"; state], new-window, about, quit
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

@@ -151,6 +151,12 @@ class Editor:
         wait(lambda: self.enabled(action), f"{action} to be possible")
         self._call("Activate", "(sava{sv})", (action, parameter, {}))
 
+    def act_on_program(self, action, signature, value):
+        """An action of the whole program, of all its windows."""
+        from gi.repository import GLib
+        self.bus.call_sync(APPLICATION, WINDOW.partition("/window")[0], "org.gtk.Actions", "Activate",
+                           GLib.Variant("(sava{sv})", (action, [GLib.Variant(signature, value)], {})), None, 0, 20000, None)
+
     # Widgets.
 
     def walk(self, node=None):

@@ -90,6 +90,7 @@ def empty_window_says_what_to_do():
         editor.find("push button", "Import mesh")
         editor.find("push button", "Open demo")
         assert not editor.look("label", "llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel")
+        assert is_dark(editor) is False, "no desktop says that it is to be dark"
         editor.press(editor.find("toggle button", "^Menu$"))
         editor.press(editor.find(".*", "^About SPORE$"))
         editor.find("label", "Pictures are made by .*(llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel)")
@@ -1847,6 +1848,67 @@ def the_view_has_the_whole_screen():
         ui.wait(lambda: editor.row("ball"), "the panels")
         assert not editor.state("show-inspector"), "what was closed stays closed"
         assert not editor.look("label", "^For training and preview only$"), "an author needs no notice"
+
+
+class Desktop:
+    """with Desktop(scheme) as desktop: what a desktop's portal tells programs of the user's liking: 1 dark, 2 light."""
+    NAME, PATH, SETTINGS = "org.freedesktop.portal.Desktop", "/org/freedesktop/portal/desktop", "org.freedesktop.portal.Settings"
+    ABOUT = f"""<node><interface name="{SETTINGS}"><method name="Read"><arg type="s" direction="in"/><arg type="s" direction="in"/>
+        <arg type="v" direction="out"/></method><signal name="SettingChanged"><arg type="s"/><arg type="s"/><arg type="v"/></signal></interface></node>"""
+
+    def __init__(self, scheme):
+        from gi.repository import Gio, GLib
+        self.bus, self.scheme, self.GLib = Gio.bus_get_sync(Gio.BusType.SESSION, None), scheme, GLib
+        interface = Gio.DBusNodeInfo.new_for_xml(self.ABOUT).interfaces[0]
+        self.object = self.bus.register_object(self.PATH, interface, self.read, None, None)
+        self.owner = Gio.bus_own_name_on_connection(self.bus, self.NAME, 0, None, None)
+
+    def boxed(self, times):
+        value = self.GLib.Variant("u", self.scheme)
+        for _ in range(times):
+            value = self.GLib.Variant("v", value)
+        return value
+
+    def read(self, bus, sender, path, interface, method, values, invocation):
+        invocation.return_value(self.GLib.Variant.new_tuple(self.boxed(2)))
+
+    def change(self, scheme):
+        self.scheme = scheme
+        place = [self.GLib.Variant("s", text) for text in ("org.freedesktop.appearance", "color-scheme")]
+        self.bus.emit_signal(None, self.PATH, self.SETTINGS, "SettingChanged", self.GLib.Variant.new_tuple(*place, self.boxed(1)))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        from gi.repository import Gio
+        Gio.bus_unown_name(self.owner)
+        self.bus.unregister_object(self.object)
+
+
+def is_dark(editor):
+    """Whether a heading beside the view is lighter than grey; None: it does not say."""
+    colour = editor.atspi.Text.get_default_attributes(editor.find("label", "^Gravity$")).get("fg-color")
+    return sum(map(int, colour.split(","))) / 3 > 32768 if colour else None
+
+
+@check
+def dark_and_light_follow_the_system():
+    """windows are dark or light as the desktop says, also when it changes its mind, or as the user chose, which is kept."""
+    choices = str(folder("look"))
+    with Desktop(1) as desktop:
+        with start(XDG_CONFIG_HOME=choices) as editor:
+            ui.wait(lambda: is_dark(editor) is True, "dark windows")
+            keep_picture(editor, "dark")
+            desktop.change(2)
+            ui.wait(lambda: is_dark(editor) is False, "light windows")
+            keep_picture(editor, "light")
+            editor.act_on_program("look", "s", "dark")
+            ui.wait(lambda: is_dark(editor) is True, "what was chosen")
+        with start(XDG_CONFIG_HOME=choices) as editor:
+            ui.wait(lambda: is_dark(editor) is True, "what was chosen once")
+            editor.act_on_program("look", "s", "system")
+            ui.wait(lambda: is_dark(editor) is False, "the system again")
 
 
 @check
