@@ -152,6 +152,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, play_image);
   gtk_widget_class_bind_template_child(widget, SporeWindow, speed_button);
   gtk_widget_class_bind_template_child(widget, SporeWindow, menu_button);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, messages);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message);
   gtk_widget_class_bind_template_child(widget, SporeWindow, message_remedy);
@@ -213,6 +214,7 @@ static void spore_window_init(SporeWindow *self) {
   self->fresh = TRUE;
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));
+  spore_viewport_set_messages(SPORE_VIEWPORT(self->viewport), self->messages);
   spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
   spore_window_add_film_actions(self);

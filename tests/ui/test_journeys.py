@@ -607,6 +607,15 @@ def picture_of_view(editor, top=60):
     return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 140 - top
 
 
+def beside(place):
+    """How light the screen is to the right of a place, 0 to 255."""
+    import gi
+    gi.require_version("Gdk", "3.0")
+    from gi.repository import Gdk
+    pixels = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), place[0] + place[2] + 8, place[1], 4, 4).get_pixels()
+    return sum(pixels) / len(pixels)
+
+
 def keep_picture(editor, name):
     """Keeps a picture of the screen in the folder that SPORE_PICTURES names, for who wants to look at it."""
     folder_ = os.environ.get("SPORE_PICTURES")
@@ -2342,8 +2351,15 @@ def messages_go_with_their_cause():
         assert lit() == ["Select"], "a press on the lit tool leaves it lit"
         editor.act("step")
         ui.wait(lambda: (editor.time_s() or 0) > 0, "a step")
+        view = editor.place(editor.find(".*", "^Viewport$"))
         editor.press(editor.find("toggle button", "^Edit$"))
         ui.wait(lambda: "needs the scene at its start" in (editor.message() or ""), "the refusal")
+        keep_picture(editor, "message")
+        remedy = editor.place(editor.find("push button", "^Back to the start$"))
+        assert editor.place(editor.find(".*", "^Viewport$")) == view and within(remedy, view), "a message lies over the view, and does not move it"
+        figures = editor.place(editor.find("label", "^Time "))
+        assert figures[1] + figures[3] <= remedy[1], "the message leaves the figures to be seen"
+        ui.wait(lambda: beside(figures) < 96, "the picture beside the figures, which is dark")
         assert lit() == ["Select"], "a refused tool is not lit"
         editor.press(editor.find("push button", "^Back to the start$"))
         ui.wait(lambda: editor.time_s() == 0 and not editor.message(), "the message to go with its cause")

@@ -12,9 +12,9 @@ typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT
 
 struct _SporeViewport {
   GtkOverlay parent;
-  GtkWidget *area, *hud, *tools, *tool_row, *select_tool, *lead_tool, *edit_tool, *look_row, *overlays, *measure_list,
-      *welcome, *beginnings, *failure, *link_button, *instrument_button, *led_button, *measure_button, *cut_slider,
-      *notice;
+  GtkWidget *area, *foot, *messages, *hud, *tools, *tool_row, *select_tool, *lead_tool, *edit_tool, *look_row,
+      *overlays, *measure_list, *welcome, *beginnings, *failure, *link_button, *instrument_button, *led_button,
+      *measure_button, *cut_slider, *notice;
 
   SporeEditorDocument *document;
   SporePlayer *player;

@@ -366,6 +366,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
       g_signal_new("measuring", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, foot);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tool_row);
@@ -395,6 +396,12 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_callback(widget, spore_viewport_key_press);
 }
 
+void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages) {
+  self->messages = messages;
+  gtk_box_pack_end(GTK_BOX(self->foot), messages, FALSE, FALSE, 0);
+  g_signal_connect_object(messages, "size-allocate", G_CALLBACK(gtk_widget_queue_draw), self->area, G_CONNECT_SWAPPED);
+}
+
 static void spore_viewport_init(SporeViewport *self) {
   self->hidden = g_hash_table_new(NULL, NULL);
   self->link_marks = spore_viewport_link_marks_new();
@@ -404,6 +411,7 @@ static void spore_viewport_init(SporeViewport *self) {
   self->camera = (SporeCamera){
       .distance = EMPTY_DISTANCE_M, .azimuth = 0.5, .elevation = 0.35, .field_of_view = FIELD_OF_VIEW_RAD};
   gtk_widget_init_template(GTK_WIDGET(self));
+  gtk_overlay_set_overlay_pass_through(GTK_OVERLAY(self), self->foot, TRUE);
   spore_ignore_wheel(self->cut_slider);
   spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
   g_signal_connect(self, "measuring", G_CALLBACK(light_tool), NULL);

@@ -70,6 +70,8 @@ guint spore_viewport_key_of(const char *action);
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
 /* The kinds of instruments, the same, and the instruments that can be led. */
 void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led);
+/* Lays messages over the foot of the view, below the figures: the picture and its tools stay where they are. */
+void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 /* Whether the corner shows what a step costs, contacts, solver and energy, too. */
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures);
