@@ -216,6 +216,7 @@ static void change_present(GSimpleAction *action, GVariant *state, gpointer data
   SporeWindow *self = data;
   change_panel(action, state, data);
   change_guide(action, state, data);
+  gtk_widget_set_visible(self->controls, g_variant_get_boolean(state));
   if (g_variant_get_boolean(state)) gtk_window_fullscreen(GTK_WINDOW(self));
   else gtk_window_unfullscreen(GTK_WINDOW(self));
   spore_viewport_set_presented(SPORE_VIEWPORT(self->viewport), g_variant_get_boolean(state));
@@ -228,6 +229,10 @@ static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data)
 
 static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) {
   spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
+}
+
+static void act_swap_views(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_viewport_swap_views(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
 }
 
 static void act_turn_optic(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -354,6 +359,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"apply-point", act_apply_point},
       {"frame", act_frame},
       {"view", act_view, "s"},
+      {"swap-views", act_swap_views},
       {"turn-optic", act_turn_optic, "d"},
       {"cut", NULL, "s", "'none'", change_cut},
       {"cut-other-side", NULL, NULL, "false", change_cut_side},

@@ -46,9 +46,10 @@ static void scene_changed(SporeWindow *self) {
 static void player_changed(SporeWindow *self) {
   spore_window_show_job(self);
   gboolean playing = spore_player_is_playing(self->player);
-  gtk_image_set_from_icon_name(GTK_IMAGE(self->play_image),
-                               playing ? "media-playback-pause-symbolic" : "media-playback-start-symbolic",
-                               GTK_ICON_SIZE_BUTTON);
+  const char *icon = playing ? "media-playback-pause-symbolic" : "media-playback-start-symbolic";
+  gtk_image_set_from_icon_name(GTK_IMAGE(self->play_image), icon, GTK_ICON_SIZE_BUTTON);
+  gtk_image_set_from_icon_name(GTK_IMAGE(self->large_play_image), icon, GTK_ICON_SIZE_BUTTON);
+  gtk_button_set_label(GTK_BUTTON(self->large_play), playing ? _("Pause") : _("Play"));
   gtk_widget_set_tooltip_text(self->play_button, playing ? _("Pause (F5)") : _("Play (F5)"));
   atk_object_set_name(gtk_widget_get_accessible(self->play_button), playing ? _("Pause") : _("Play"));
   if (spore_window_is_at_start(self)) spore_window_mend(self, SPORE_CAUSE_RUN);

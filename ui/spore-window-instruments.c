@@ -78,6 +78,14 @@ static void change_led(GSimpleAction *action, GVariant *state, gpointer data) {
   if (body) spore_editor_document_select(self->document, spore_object_id(body));
 }
 
+/* Whoever leads none yet begins with the one that is proposed. */
+static void act_lead_next(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GVariant) tool = g_action_group_get_action_state(G_ACTION_GROUP(self), "tool");
+  if (g_str_equal(g_variant_get_string(tool, NULL), "probe")) spore_viewport_lead_next(SPORE_VIEWPORT(self->viewport));
+  else g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("probe"));
+}
+
 void spore_window_show_hands(SporeWindow *self) {
   g_autoptr(GPtrArray) hands = spore_hands(spore_editor_document_get(self->document));
   const SporeObject *led = spore_viewport_get_led(SPORE_VIEWPORT(self->viewport));
@@ -96,8 +104,8 @@ void spore_window_show_hands(SporeWindow *self) {
 }
 
 void spore_window_add_instrument_actions(SporeWindow *self) {
-  static const GActionEntry actions[] = {{"add-instrument", act_add_instrument, "s"},
-                                         {"lead", NULL, "s", "''", change_led}};
+  static const GActionEntry actions[] = {
+      {"add-instrument", act_add_instrument, "s"}, {"lead", NULL, "s", "''", change_led}, {"lead-next", act_lead_next}};
   self->hands = g_menu_new();
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

@@ -98,6 +98,8 @@ static const struct {
     {"add-link", BODIES},
     {"tie-link", LINK},
     {"lead", HANDS},
+    {"lead-next", HANDS},
+    {"swap-views", CAMERA | BODIES},
     {"turn-optic", CAMERA},
     {"pick-back", PICKING},
     {"pick-done", DRAFT},

@@ -23,6 +23,7 @@ static const struct {
     {"win.reset", N_("Back to the start")},
     {"win.tool::select", N_("Tool: select")},
     {"win.tool::probe", N_("Tool: lead an instrument")},
+    {"win.lead-next", N_("Lead the next instrument")},
     {"win.tool::edit", N_("Tool: edit by hand")},
     {"win.show-surfaces", N_("Show or hide surfaces")},
     {"win.show-spheres", N_("Show or hide collision spheres")},

@@ -170,6 +170,9 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
   gtk_widget_class_bind_template_child(widget, SporeWindow, exercise);
   gtk_widget_class_bind_template_child(widget, SporeWindow, guide);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, controls);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, large_play);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, large_play_image);
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, middle);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);

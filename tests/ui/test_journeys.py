@@ -1922,9 +1922,10 @@ def dark_and_light_follow_the_system():
 
 @check
 def a_trainee_follows_the_exercise_on_the_whole_screen():
-    """the steps, the hint, time, score and errors stand over the whole screen while it plays, and go by a key; a scene without an exercise has none."""
+    """the steps, the hint, time, score and errors stand over the whole screen while it plays, and go by a key; large buttons play, lead, change the view and leave; a scene without an exercise has no steps."""
     path = exercise_scene("guided")
-    path.write_text(path.read_text().replace("</spore>", """<exercise task="Touch the ball and come back." time_limit="30">
+    camera = '<camera name="scope" position="0 0.03 0.2" target="0 0 0" field_of_view="0.8"/></tools>'
+    path.write_text(path.read_text().replace("</tools>", camera).replace("</spore>", """<exercise task="Touch the ball and come back." time_limit="30">
 <touched name="touch" body="organ" hint="Go to the ball."/><reached name="back" tool="rod" point="-0.07 0 0" after="touch"/></exercise></spore>"""))
     with start(path) as editor:
         ui.wait(lambda: editor.row("organ"), "the scene")
@@ -1934,12 +1935,22 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         editor.find("label", "^Play begins the exercise$")
         editor.find("label", "^Touch the ball and come back.$")
         editor.find("label", "^2. Reached, by rod, after touch$")
+        controls = editor.find("panel|filler", "^Large controls$")
+        large = {button.get_name(): button for button in editor.walk(controls) if button.get_role_name() == "push button"}
+        assert list(large) == ["To the start", "Play", "Instrument", "Camera", "Steps", "Leave"], list(large)
+        assert all(min(editor.place(button)[2:]) >= 44 for button in large.values()), "a finger finds them"
+        editor.press(large["Instrument"])
+        ui.wait(lambda: editor.state("tool") == "probe", "the instrument to be led")
+        through_camera = picture_of_view(editor)[0]
+        editor.press(large["Camera"])
+        ui.wait(lambda: picture_of_view(editor)[0] != through_camera, "the view from outside")
         editor.act("step")
         editor.find("label", "^Under way, 0 of 2 steps$")
         editor.find("label", "^Go to the ball.$")
         editor.find("label", "^▸$")
         editor.act("speed", "s", "0")
-        editor.act("play")
+        editor.press(large["Play"])
+        editor.find("push button", "^Pause$")
         editor.find("label", "^Done, passed, 2 of 2 steps$", 120)
         editor.find("label", r"^\d+\.\d\d of 30 s$")
         editor.find("label", "^✓$")
@@ -1956,6 +1967,8 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         editor.act("open", "s", str(SCENES / "minimal.spore"))
         ui.wait(lambda: not editor.look("panel|filler", "^Exercise so far$"), "a scene without steps")
         assert editor.state("present") and not editor.enabled("show-guide")
+        editor.press(editor.find("push button", "^Leave$"))
+        ui.wait(lambda: editor.row("floor") and not editor.look("push button", "^Leave$"), "the panels")
 
 
 @check

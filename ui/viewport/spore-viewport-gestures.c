@@ -237,7 +237,7 @@ static const struct {
     {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},        {GDK_KEY_i, "win.isolate"},
     {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},       {GDK_KEY_0, "win.view::camera"},
     {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"}, {GDK_KEY_7, "win.view::top"},
-    {GDK_KEY_e, "win.show-guide"},
+    {GDK_KEY_e, "win.show-guide"},        {GDK_KEY_x, "win.swap-views"},
 };
 
 guint spore_viewport_key_of(const char *action) {

@@ -70,6 +70,8 @@ static void choose(SporeViewport *self, int by) {
   spore_activate(GTK_WIDGET(self), "lead", g_variant_new_string(spore_object_name(next)));
 }
 
+void spore_viewport_lead_next(SporeViewport *self) { choose(self, 1); }
+
 /* Leading it. */
 
 /* The hand starts at the pose that the body has from its device, the mouse or a track. */

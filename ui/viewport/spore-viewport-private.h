@@ -60,7 +60,9 @@ struct _SporeViewport {
   double draw_ms;
 
   SporeCamera camera;
-  guint32 through; /* id of the camera of the scene that the view looks through and follows; 0: none */
+  guint32 through;     /* id of the camera of the scene that the view looks through and follows; 0: none */
+  SporeCamera outside; /* where the view was before it looked through the scene's camera */
+  gboolean has_outside;
   gboolean framed, waiting;
 
   SporeDrag drag;
@@ -79,6 +81,8 @@ struct _SporeViewport {
 
 /* spore-viewport-view.c: camera, candidate, welcome. */
 void spore_viewport_redraw(SporeViewport *self);
+/* From where a scene is looked at that has no camera; its whole is not framed yet. */
+SporeCamera spore_viewport_beginning(void);
 /* TRUE: there is a body, or a candidate that stands for itself. */
 gboolean spore_viewport_has_anything(SporeViewport *self);
 /* The welcome is shown while nothing else is. */
@@ -87,6 +91,9 @@ void spore_viewport_show_welcome(SporeViewport *self);
 void spore_viewport_follow_camera(SporeViewport *self);
 /* Where nothing was to be seen before, the view goes to what is there now. */
 void spore_viewport_look_afresh(SporeViewport *self);
+/* The camera of the other view: the scene's while the view is outside, else the one outside. FALSE: the scene has none,
+ * or there is nothing to see. */
+gboolean spore_viewport_other_camera(SporeViewport *self, double aspect, SporeCamera *camera);
 /* The view no longer looks through a camera of the scene. Called before the user moves the view. */
 void spore_viewport_leave_scene_camera(SporeViewport *self);
 void spore_viewport_clear_legend(SporeViewport *self);

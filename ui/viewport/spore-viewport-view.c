@@ -3,6 +3,9 @@
 
 #include "ui/viewport/spore-viewport-private.h"
 
+#define FIELD_OF_VIEW_RAD 0.61
+/* An empty scene shows about a hand's breadth. */
+#define EMPTY_DISTANCE_M 0.4
 #define HANDLE_PIXELS 6.0 /* radius as drawn */
 #define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
 #define REACH_PIXELS 11.0 /* distance from a handle within which a click meets it */
@@ -24,6 +27,11 @@ void spore_viewport_show_welcome(SporeViewport *self) {
 }
 
 /* The camera. */
+
+SporeCamera spore_viewport_beginning(void) {
+  return (SporeCamera){
+      .distance = EMPTY_DISTANCE_M, .azimuth = 0.5, .elevation = 0.35, .field_of_view = FIELD_OF_VIEW_RAD};
+}
 
 static double aspect_of(SporeViewport *self) {
   return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
@@ -50,9 +58,39 @@ static void look_through_camera(SporeViewport *self) {
   if (!self->stage || !spore_viewport_has_anything(self)) return;
   const SporeObject *camera = spore_viewport_scene_camera(self);
   const char *name = camera ? spore_object_name(camera) : NULL;
+  if (camera && self->framed && !self->through) self->outside = self->camera, self->has_outside = TRUE;
   spore_stage_camera(self->stage, name, aspect_of(self), &self->camera, NULL);
   self->framed = TRUE;
   self->through = camera ? spore_object_id(camera) : 0;
+}
+
+/* Where the view was outside, else where all of the scene is seen. */
+static SporeCamera outside_camera(SporeViewport *self, double aspect) {
+  double lower[3], upper[3];
+  SporeCamera camera = spore_viewport_beginning();
+  if (self->has_outside) return self->outside;
+  spore_stage_bounds(self->stage, lower, upper);
+  spore_camera_frame(&camera, lower, upper, aspect);
+  return camera;
+}
+
+gboolean spore_viewport_other_camera(SporeViewport *self, double aspect, SporeCamera *camera) {
+  const SporeObject *of_scene = self->document ? spore_viewport_scene_camera(self) : NULL;
+  if (!self->stage || !of_scene || !spore_viewport_has_anything(self)) return FALSE;
+  if (self->through) *camera = outside_camera(self, aspect);
+  else spore_stage_camera(self->stage, spore_object_name(of_scene), aspect, camera, NULL);
+  return TRUE;
+}
+
+void spore_viewport_swap_views(SporeViewport *self) {
+  SporeCamera outside;
+  if (!self->through) {
+    look_through_camera(self);
+  } else if (spore_viewport_other_camera(self, aspect_of(self), &outside)) {
+    spore_viewport_leave_scene_camera(self);
+    self->camera = outside;
+  }
+  spore_viewport_redraw(self);
 }
 
 void spore_viewport_look_afresh(SporeViewport *self) {

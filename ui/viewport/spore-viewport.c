@@ -7,9 +7,9 @@
 #include "ui/viewport/spore-viewport-private.h"
 
 #define HUD_INTERVAL_US (G_USEC_PER_SEC / 10)
-#define FIELD_OF_VIEW_RAD 0.61
-/* An empty scene shows about a hand's breadth. */
-#define EMPTY_DISTANCE_M 0.4
+/* Widths of the figures in the corner; beside the large controls there is less room. */
+#define HUD_CHARS 60
+#define HUD_BESIDE_CONTROLS 38
 #define WELCOME_PADDING 72 /* on both sides, of the style */
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
@@ -242,6 +242,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
   self->framed = FALSE;
+  self->has_outside = FALSE;
   self->through = 0; /* another document numbers its objects anew */
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
@@ -282,6 +283,7 @@ static void tool_clicked(GtkWidget *button, SporeViewport *self) {
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
   self->presented = presented;
   gtk_widget_set_visible(self->notice, presented);
+  gtk_label_set_max_width_chars(GTK_LABEL(self->hud), presented ? HUD_BESIDE_CONTROLS : HUD_CHARS);
   gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
   spore_viewport_redraw(self);
 }
@@ -408,8 +410,7 @@ static void spore_viewport_init(SporeViewport *self) {
   self->measures = spore_viewport_measures_new();
   self->options = (SporeStageOptions){.surfaces = TRUE};
   spore_hand_edit_close(&self->edit);
-  self->camera = (SporeCamera){
-      .distance = EMPTY_DISTANCE_M, .azimuth = 0.5, .elevation = 0.35, .field_of_view = FIELD_OF_VIEW_RAD};
+  self->camera = spore_viewport_beginning();
   gtk_widget_init_template(GTK_WIDGET(self));
   gtk_overlay_set_overlay_pass_through(GTK_OVERLAY(self), self->foot, TRUE);
   spore_ignore_wheel(self->cut_slider);

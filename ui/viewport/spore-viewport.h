@@ -3,12 +3,12 @@
  * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
  * the wheel zooms to the cursor, right opens a menu; M measures a distance; H hides the selected body, I shows it
  * alone, A shows all; E shows or hides the steps of the exercise; F frames, 1, 3, 7 look along the axes, 0 through the
- * scene's camera and with it, Escape takes a drag back. With the Lead tool, left moves the instrument and takes it from
- * its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and presses its pedal; with Shift
- * let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose the instrument, arrows and Page Up
- * and Down move it, C closes it, O opens it. With the Edit tool, left picks and moves spheres and points of curves, and
- * the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete
- * deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
+ * scene's camera and with it, X there and back, Escape takes a drag back. With the Lead tool, left moves the instrument
+ * and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and presses its
+ * pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose the instrument,
+ * arrows and Page Up and Down move it, C closes it, O opens it. With the Edit tool, left picks and moves spheres and
+ * points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on,
+ * Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
@@ -49,6 +49,8 @@ void spore_viewport_set_presented(SporeViewport *self, gboolean presented);
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
 /* Uses the Edit tool on all regions of the object that holds this one, which is chosen first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
+/* Leads the next instrument, round and round. */
+void spore_viewport_lead_next(SporeViewport *self);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */
 gboolean spore_viewport_has_edited(SporeViewport *self);
@@ -104,6 +106,8 @@ void spore_viewport_frame_soon(SporeViewport *self);
 /* "front", "right", "top", or "camera": through spore_viewport_scene_camera, following it; without a camera, the whole
  * scene. */
 void spore_viewport_view(SporeViewport *self, const char *view);
+/* From the outside to the scene's camera, which is followed, and back to where the view was. */
+void spore_viewport_swap_views(SporeViewport *self);
 /* The camera of the scene that is selected, else the one that the view looks through, else the first; NULL: there is
  * none. */
 SporeObject *spore_viewport_scene_camera(SporeViewport *self);
