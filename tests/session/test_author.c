@@ -781,6 +781,36 @@ static void test_length_text(void) {
   }
 }
 
+/* Radians of the file and degrees of the window: the degrees that people meant, and the same ones again. */
+static void test_angle_text(void) {
+  static const struct {
+    const char *radians, *degrees;
+  } shown[] = {{"0.5236", "30"},    {"0.523598775598298", "30"},
+               {"0.7", "40.1"},     {"1.571 0 -1.571", "90 0 -90"},
+               {"-3.1416", "-180"}, {"0.53", "30.37"},
+               {"1e-3", "0.0573"},  {"100", "5729.58"},
+               {"inf x", "inf x"},  {"", ""}};
+  for (guint i = 0; i < G_N_ELEMENTS(shown); i++) {
+    g_autofree char *degrees = spore_number_text_degrees(shown[i].radians);
+    g_assert_cmpstr(degrees, ==, shown[i].degrees);
+  }
+  static const char *const typed[] = {"30", "-12.5", "0.1", "179.99", "0.0000001", "33.333333", "0 90 -45"};
+  for (guint i = 0; i < G_N_ELEMENTS(typed); i++) {
+    g_autofree char *radians = spore_number_text_radians(typed[i]);
+    g_autofree char *degrees = spore_number_text_degrees(radians);
+    g_assert_cmpstr(degrees, ==, typed[i]);
+  }
+  static const struct {
+    const char *typed, *left;
+    gboolean degrees;
+  } units[] = {{"30", "30", TRUE}, {"30 ° ", "30", TRUE}, {"30deg", "30", TRUE}, {"0.5 rad", "0.5", FALSE}};
+  for (guint i = 0; i < G_N_ELEMENTS(units); i++) {
+    g_autofree char *text = g_strdup(units[i].typed);
+    g_assert_cmpint(spore_number_text_cut_angle(text), ==, units[i].degrees);
+    g_assert_cmpstr(text, ==, units[i].left);
+  }
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -823,6 +853,7 @@ int main(int argc, char **argv) {
     g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
   }
   g_test_add_func("/author/number-text", test_number_text);
+  g_test_add_func("/author/angle-text", test_angle_text);
   g_test_add_func("/author/length-text", test_length_text);
   int status = g_test_run();
   g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;

@@ -1118,6 +1118,14 @@ def inspector_sets_a_property():
             editor.set_entry(editor.find("text", "^Position$", showing=False), typed)
             ui.wait(lambda: f'position="{written}"' in saved(editor, "property"), "the place in the file, in metres")
             ui.wait(lambda: position() == shown, "the place in the window, in millimetres")
+        # Angles are shown in degrees, and taken in radians where these are typed.
+        rotation = lambda: editor.find("text", "^Rotation$", showing=False)
+        for typed, shown, written in (("0 0 30°", "0 0 30", r"0 0 0\.52359877559829\d+"), ("0 0 1.571 rad", "0 0 90", r"0 0 1\.571")):
+            editor.set_entry(rotation(), typed)
+            ui.wait(lambda: re.search(f' rotation="{written}"', saved(editor, "property")), "the angle in the file, in radians")
+            ui.wait(lambda: editor.text_of(rotation()) == shown, "the angle in the window, in degrees")
+        assert editor.look("label", "^°$", showing=False), "the sign says that they are degrees"
+        keep_picture(editor, "degrees")
 
 
 @check

@@ -1,8 +1,9 @@
-/* Decimal marks, and lengths in mm. */
+/* Decimal marks, lengths in mm, and angles in degrees. */
 #include "ui/document/number-text.h"
 
 #include <glib.h>
 #include <locale.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,15 +100,27 @@ static gboolean append_shifted(GString *out, const char *word, gsize length, int
   return TRUE;
 }
 
-char *spore_number_text_shift(const char *text, int digits) {
+/* Each word through `append`, which gives FALSE for one that is to stay. g_free. */
+static char *each_word(const char *text, gboolean (*append)(GString *out, const char *word, gsize length, int argument),
+                       int argument) {
   GString *out = g_string_new(NULL);
   while (*text) {
     gsize length = strcspn(text, " ");
-    if (length > 0 && !append_shifted(out, text, length, digits)) g_string_append_len(out, text, (gssize)length);
+    if (length > 0 && !append(out, text, length, argument)) g_string_append_len(out, text, (gssize)length);
     text += length;
     if (*text) g_string_append_c(out, *text++);
   }
   return g_string_free(out, FALSE);
+}
+
+char *spore_number_text_shift(const char *text, int digits) { return each_word(text, append_shifted, digits); }
+
+/* Cuts the name from the end, and blanks before it; FALSE: it is not there. */
+static gboolean cut(char *typed, const char *name) {
+  if (!g_str_has_suffix(typed, name)) return FALSE;
+  typed[strlen(typed) - strlen(name)] = '\0';
+  g_strchomp(typed);
+  return TRUE;
 }
 
 int spore_number_text_cut_length(char *typed) {
@@ -116,11 +129,61 @@ int spore_number_text_cut_length(char *typed) {
     int digits;
   } units[] = {{"cm", -2}, {"mm", -3}, {"um", -6}, {"µm", -6}, {"m", 0}};
   g_strchomp(typed);
-  for (gsize i = 0; i < G_N_ELEMENTS(units); i++) {
-    if (!g_str_has_suffix(typed, units[i].name)) continue;
-    typed[strlen(typed) - strlen(units[i].name)] = '\0';
-    g_strchomp(typed);
-    return units[i].digits;
-  }
+  for (gsize i = 0; i < G_N_ELEMENTS(units); i++)
+    if (cut(typed, units[i].name)) return units[i].digits;
   return -3;
+}
+
+/* Angles. */
+
+#define RADIANS_A_DEGREE (G_PI / 180)
+#define MOST_DECIMALS 12
+#define ROUNDED_RAD 3.5e-4 /* a rounded angle is off by no more, 0.02 degrees, */
+#define ROUNDED_SHARE 1e-3 /* and by no more than this share of itself */
+
+static gboolean read_number(const char *word, gsize length, double *number) {
+  char *end;
+  *number = g_ascii_strtod(word, &end);
+  return end == word + length && isfinite(*number);
+}
+
+/* Decimals that the number is written with: 4 of "0.5236", 4 of "1.5e-3". */
+static int decimals_of(const char *word, gsize length) {
+  const char *point = memchr(word, '.', length), *end = word + strcspn(word, "eE ");
+  int power = end < word + length ? atoi(end + 1) : 0;
+  return CLAMP((point ? (int)(end - point - 1) : 0) - power, 0, MOST_DECIMALS);
+}
+
+static gboolean append_degrees(GString *out, const char *word, gsize length, int unused) {
+  double radians;
+  char text[512], format[8];
+  if (!read_number(word, length, &radians)) return FALSE;
+  double off = MIN(ROUNDED_RAD, ROUNDED_SHARE * fabs(radians));
+  off = MIN(off, 0.5 * pow(10, -decimals_of(word, length)));
+  for (int decimals = 0; decimals <= MOST_DECIMALS + 4; decimals++) {
+    g_snprintf(format, sizeof format, "%%.%df", decimals);
+    g_ascii_formatd(text, sizeof text, format, radians / RADIANS_A_DEGREE);
+    if (fabs(g_ascii_strtod(text, NULL) * RADIANS_A_DEGREE - radians) <= off) break;
+  }
+  g_string_append(out, text);
+  return TRUE;
+}
+
+static gboolean append_radians(GString *out, const char *word, gsize length, int unused) {
+  double degrees;
+  char text[G_ASCII_DTOSTR_BUF_SIZE];
+  if (!read_number(word, length, &degrees)) return FALSE;
+  g_string_append(out, g_ascii_dtostr(text, sizeof text, degrees * RADIANS_A_DEGREE));
+  return TRUE;
+}
+
+char *spore_number_text_degrees(const char *text) { return each_word(text, append_degrees, 0); }
+
+char *spore_number_text_radians(const char *text) { return each_word(text, append_radians, 0); }
+
+int spore_number_text_cut_angle(char *typed) {
+  g_strchomp(typed);
+  if (cut(typed, "rad")) return FALSE;
+  (void)(cut(typed, "°") || cut(typed, "deg"));
+  return TRUE;
 }

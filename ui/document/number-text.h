@@ -1,4 +1,4 @@
-/* Numbers as people type and read them: with the decimal mark of their language. */
+/* Numbers as people type and read them: with the decimal mark of their language, lengths in mm, angles in degrees. */
 #ifndef SPORE_UI_DOCUMENT_NUMBER_TEXT_H
 #define SPORE_UI_DOCUMENT_NUMBER_TEXT_H
 
@@ -15,5 +15,13 @@ char *spore_number_text_shift(const char *text, int digits);
 /* Cuts a unit of length from the end of what was typed, and tells how far the decimal point of metres lies from that
  * of the unit: m 0, cm -2, mm -3, um and µm -6. Without one: -3, since the window shows lengths in mm. */
 int spore_number_text_cut_length(char *typed);
+/* The text of a scene's file, radians, in degrees: the shortest that stand for each number as it is written, so that
+ * 0.5236 is 30. What is no number stays. g_free. */
+char *spore_number_text_degrees(const char *text);
+/* The reverse; spore_number_text_degrees makes the same degrees of it again. g_free. */
+char *spore_number_text_radians(const char *text);
+/* Cuts "°", "deg" or "rad" from the end of what was typed. TRUE: these are degrees, as the window shows angles;
+ * FALSE: radians. */
+int spore_number_text_cut_angle(char *typed);
 
 #endif

@@ -63,10 +63,15 @@ char *spore_choice_label(const char *choice) {
   return spore_name_is_word(choice) ? spore_label_of(choice) : g_strdup(choice);
 }
 
-double spore_unit_scale(const char *unit) { return g_str_equal(unit, "m") ? 1e3 : 1; }
+gboolean spore_unit_is_angle(const char *unit) { return g_str_equal(unit, "rad") || g_str_equal(unit, "rad/s"); }
+
+double spore_unit_scale(const char *unit) {
+  return g_str_equal(unit, "m") ? 1e3 : spore_unit_is_angle(unit) ? 180 / G_PI : 1;
+}
 
 char *spore_unit_label(const char *unit) {
-  GString *label = g_string_new(spore_unit_scale(unit) == 1 ? unit : "mm");
+  GString *label = g_string_new(g_str_equal(unit, "m") ? "mm" : unit);
+  if (spore_unit_is_angle(unit)) g_string_replace(label, "rad", "°", 0);
   g_string_replace(label, "^2", "²", 0);
   g_string_replace(label, "^3", "³", 0);
   return g_string_free(label, FALSE);

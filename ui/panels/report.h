@@ -22,9 +22,11 @@ void spore_spin_shows_none(GtkWidget *spin);
 char *spore_label_of(const char *name);
 /* "Implicit Euler" of "implicit_euler"; abbreviations such as mm or LPS stay as they are. g_free. */
 char *spore_choice_label(const char *choice);
-/* The unit that the window shows for one of the tables: "m/s²" of "m/s^2", "mm" of "m". g_free. */
+/* Whether the window shows the unit in degrees: "rad", "rad/s". */
+gboolean spore_unit_is_angle(const char *unit);
+/* The unit that the window shows for one of the tables: "m/s²" of "m/s^2", "mm" of "m", "°" of "rad". g_free. */
 char *spore_unit_label(const char *unit);
-/* How many of the units shown are one of the tables' units: 1e3 of "m", else 1. */
+/* How many of the units shown are one of the tables' units: 1e3 of "m", 57.3 of "rad", else 1. */
 double spore_unit_scale(const char *unit);
 /* The value as the file would hold it. g_free. */
 char *spore_value_text(const SporeParameter *parameter, const SporeValue *value);

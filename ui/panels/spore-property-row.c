@@ -31,8 +31,10 @@ static const SporeParameter *parameter_of(SporePropertyRow *self) {
   return &self->type->table->parameters[self->property];
 }
 
-/* Lengths are shown in mm, as everywhere in the window. */
-static gboolean is_length(const SporeParameter *parameter) { return spore_unit_scale(parameter->unit) != 1; }
+/* Lengths are shown in mm, as everywhere in the window, and angles in degrees. */
+static gboolean is_length(const SporeParameter *parameter) { return g_str_equal(parameter->unit, "m"); }
+
+static gboolean is_angle(const SporeParameter *parameter) { return spore_unit_is_angle(parameter->unit); }
 
 static gboolean is_colour(const SporeParameter *parameter) {
   return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
@@ -120,8 +122,10 @@ static gboolean is_automatic(const SporeParameter *parameter, const char *text) 
 static char *entry_text(SporePropertyRow *self, const char *text) {
   if (is_automatic(parameter_of(self), text)) return g_strdup("");
   if (!is_number(self)) return g_strdup(text);
-  g_autofree char *shifted = spore_number_text_shift(text, is_length(parameter_of(self)) ? 3 : 0);
-  return spore_number_text_show(shifted, spore_number_mark());
+  g_autofree char *shown = is_angle(parameter_of(self))
+                               ? spore_number_text_degrees(text)
+                               : spore_number_text_shift(text, is_length(parameter_of(self)) ? 3 : 0);
+  return spore_number_text_show(shown, spore_number_mark());
 }
 
 /* What was typed, as the file has it. g_free. */
@@ -129,7 +133,9 @@ static char *typed_text(SporePropertyRow *self, const char *typed) {
   if (!is_number(self)) return g_strstrip(g_strdup(typed));
   g_autofree char *plain = g_strdup(typed);
   int digits = is_length(parameter_of(self)) ? spore_number_text_cut_length(plain) : 0;
+  gboolean degrees = is_angle(parameter_of(self)) && spore_number_text_cut_angle(plain);
   g_autofree char *text = spore_number_text_read(plain, spore_number_mark());
+  if (degrees) return spore_number_text_radians(text);
   return digits == 0 ? g_steal_pointer(&text) : spore_number_text_shift(text, digits);
 }
 
@@ -331,6 +337,10 @@ static void describe(SporePropertyRow *self) {
   g_autofree char *range = range_text(parameter, unit);
   g_autofree char *tooltip =
       g_strconcat(parameter->doc && *parameter->doc ? _(parameter->doc) : label, range ? "\n" : NULL, range, NULL);
+  if (is_angle(parameter)) {
+    g_autofree char *told = g_steal_pointer(&tooltip);
+    tooltip = g_strconcat(told, "\n", _("Shown in degrees; the file has radians"), NULL);
+  }
   gtk_label_set_text(GTK_LABEL(self->label), label);
   gtk_widget_set_tooltip_text(self->label, tooltip);
   gtk_widget_set_tooltip_text(self->editor, tooltip);
