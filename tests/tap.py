@@ -17,6 +17,18 @@ def check(function):
     return function
 
 
+def alike(function):
+    """Marks a check of code that no build option changes; such checks are programs of the suite `alike`."""
+    function.alike = True
+    return function
+
+
+def long_run(function):
+    """Marks a check of minutes under sanitizers, of code that other checks run under them: sanitized programs leave it out."""
+    function.long_run = True
+    return function
+
+
 class Skip(Exception):
     """Raised by a check that this build or machine cannot make."""
 
@@ -46,18 +58,21 @@ def wait_for_work(process, seconds=0.2):
         time.sleep(0.01)
 
 
-def main(*arguments, part=0, parts=1):
-    """Runs all checks in order, or every parts-th of them from number `part` on, hands each `arguments`, and exits with 1 when one
-    failed. While one works on a check: SPORE_CHECKS is a regular expression for the names of the functions to run."""
+def main(*arguments, kind=None, part=0, parts=1):
+    """Runs all checks in order, or of one kind ("alike", "options") every parts-th from number `part` on, hands each `arguments`,
+    and exits with 1 when one failed. While one works on a check: SPORE_CHECKS is a regular expression for the names of the
+    functions to run."""
     failed = 0
-    part, parts = int(part), int(parts)
-    mine = [one for one in _checks[part::parts] if re.search(os.environ.get("SPORE_CHECKS", ""), one.__name__)]
+    of_kind = [one for one in _checks if kind in (None, "alike" if hasattr(one, "alike") else "options")]
+    mine = [one for one in of_kind[int(part)::int(parts)] if re.search(os.environ.get("SPORE_CHECKS", ""), one.__name__)]
     print("TAP version 13")
     print(f"1..{len(mine)}")
     for number, function in enumerate(mine, 1):
         name = (function.__doc__ or function.__name__).splitlines()[0].strip().rstrip(".").replace("#", "")
         began = time.monotonic()
         try:
+            if hasattr(function, "long_run") and is_sanitized(sys.argv[1]):
+                raise Skip("other checks run the code under sanitizers")
             function(*arguments)
             print(f"ok {number} - {name}", flush=True)
         except Skip as reason:

@@ -14,7 +14,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
-from tap import check, is_sanitized, main, wait_for_work
+from tap import check, is_sanitized, long_run, main, wait_for_work
 
 SPORE = os.path.abspath(sys.argv[1])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-accuracy-"))
@@ -138,6 +138,7 @@ def the_sentence_says_what_the_points_say():
 
 
 @check
+@long_run
 def what_is_far_off_is_not_praised():
     """Position-based steps of 4 ms on a net give it energies thousands of times what is at work: none of them is sound, nor in
     the Pareto set, and the table says so."""
@@ -202,6 +203,7 @@ def solvers_are_an_axis():
 
 
 @check
+@long_run
 def fewer_spheres_feel_otherwise():
     """More spheres come nearer to the finest set; the scene's file stays as it is."""
     scene = falling()
@@ -223,6 +225,7 @@ def the_stretch_begins_where_something_happens():
 
 
 @check
+@long_run
 def less_time_cuts_more():
     """What cannot be had in a few seconds is cut, and said: it would take minutes. A full study cuts nothing."""
     seconds = 20 if is_sanitized(SPORE) else 2

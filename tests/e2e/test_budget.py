@@ -12,7 +12,7 @@ import tempfile
 import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from tap import check, is_sanitized, main
+from tap import check, is_sanitized, long_run, main
 
 SPORE = os.path.abspath(sys.argv[1])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-budget-"))
@@ -94,6 +94,7 @@ def what_fits_is_made_nearer_and_what_does_not_cheaper():
 
 
 @check
+@long_run
 def the_scene_that_is_written_is_the_one_that_was_measured():
     """--output writes step, solver and levels with what was measured of them; the scene itself stays."""
     text, output = LEVELS.read_text(), WORK / "scenes" / "fast.spore"

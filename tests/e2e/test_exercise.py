@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Exercises, headless: every event and every metric against a run in which it is there and one in which it is not, and
-against what can be computed by hand. test_exercise.py SPORE."""
+against what can be computed by hand. test_exercise.py SPORE [KIND]: as tap.main has it."""
 import base64
 import csv
 import json
@@ -14,7 +14,7 @@ import tempfile
 import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from tap import check, is_sanitized, main
+from tap import alike, check, is_sanitized, long_run, main
 
 SPORE = os.path.abspath(sys.argv[1])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-exercise-"))
@@ -91,6 +91,7 @@ def near(value, wanted, within=1e-9):
 
 
 @check
+@alike
 def a_place_is_reached_when_the_instrument_is_there():
     found = steps(run('<reached name="near" tool="one" point="0.05 0 0" radius="0.01"/>'
                       '<reached name="stays" tool="one" point="0.1 0 0" radius="0.002" time="0.5"/>'
@@ -106,6 +107,7 @@ def a_place_is_reached_when_the_instrument_is_there():
 
 
 @check
+@alike
 def a_ring_is_passed_in_its_direction_and_within_it():
     ring = '<passed_through name="%s" tool="one" point="0.05 %s 0" direction="%s 0 0" radius="0.01"/>'
     found = steps(run(ring % ("through", "0.005", 1) + ring % ("beside", "0.02", 1) + ring % ("against", "0.005", -1), 200))
@@ -114,6 +116,7 @@ def a_ring_is_passed_in_its_direction_and_within_it():
 
 
 @check
+@alike
 def what_is_touched_is_pressed_on():
     found = steps(run('<touched name="yes" tool="one" body="wall"/><touched name="no" tool="two" body="wall"/>'
                       '<touched name="beside" tool="one" body="dish"/>', 200))
@@ -122,6 +125,7 @@ def what_is_touched_is_pressed_on():
 
 
 @check
+@alike
 def a_body_is_in_the_dish_when_it_lies_within():
     found = steps(run('<bagged name="in" body="tip" container="dish" share="1"/>'
                       '<bagged name="never" body="other" container="dish" share="1"/>', 400))
@@ -130,6 +134,7 @@ def a_body_is_in_the_dish_when_it_lies_within():
 
 
 @check
+@alike
 def paths_movements_economy_and_time_are_those_of_the_track():
     found = metrics(run('<path_length name="all"/><path_length name="one" tool="one"/><path_length name="two" tool="two"/>'
                         '<movements name="moves"/><economy name="economy" tool="one"/><economy name="still" tool="two"/>'
@@ -144,6 +149,7 @@ def paths_movements_economy_and_time_are_those_of_the_track():
 
 
 @check
+@alike
 def a_path_is_that_of_the_tip():
     """A tool that turns about the origin of its body by half a turn, 0.1 m ahead of which it acts; a probe has its tip there."""
     probe, suction = '<probe name="one" body="tip"', '<suction name="one" body="tip" point="0 -0.1 0"'
@@ -162,6 +168,7 @@ def a_path_is_that_of_the_tip():
 
 
 @check
+@alike
 def a_detour_costs_economy_and_haste_smoothness():
     track(lambda t: 0.001 * t ** 3)
     smooth = metrics(run('<economy name="e" tool="one"/><smoothness name="s" tool="one"/>', 400))
@@ -173,6 +180,7 @@ def a_detour_costs_economy_and_haste_smoothness():
 
 
 @check
+@alike
 def normalised_jerk_is_that_of_a_polynomial():
     """x = t^3: the jerk is 6 m/s^3 throughout; sqrt(1/2 36 T T^5 / L^2) with L = T^3 is sqrt(18)."""
     track(lambda t: 0.001 * t ** 3)
@@ -182,6 +190,7 @@ def normalised_jerk_is_that_of_a_polynomial():
 
 
 @check
+@alike
 def instruments_collide_once_where_they_stay_in_contact():
     """The balls overlap from 3.3 s to 3.7 s."""
     parts = '<collisions name="c"/><collisions name="of" tool="two"/>'
@@ -191,6 +200,7 @@ def instruments_collide_once_where_they_stay_in_contact():
 
 
 @check
+@alike
 def forces_are_those_of_the_wall():
     """The ball of 0.01 m rests 0.005 m deep in the wall's from 1 s to 2 s."""
     found = metrics(run('<peak_force name="peak" tool="one"/><mean_force name="mean" tool="one"/><peak_force name="two" '
@@ -204,6 +214,7 @@ def forces_are_those_of_the_wall():
 
 
 @check
+@alike
 def what_leaves_the_view_is_out_of_it():
     """The view is as wide as 0.1 tan(0.25) at the middle: left after 0.255 s."""
     found = metrics(run('<out_of_view name="one" tool="one" camera="eye"/><out_of_view name="any" camera="eye"/>', 100))
@@ -212,6 +223,7 @@ def what_leaves_the_view_is_out_of_it():
 
 
 @check
+@alike
 def order_and_conditions_hold():
     parts = ('<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/>'
              '<reached name="near" tool="one" point="0.05 0 0" radius="0.002"/>')
@@ -222,6 +234,7 @@ def order_and_conditions_hold():
 
 
 @check
+@alike
 def time_limit_ends_it_and_done_stops_the_clock():
     part = '<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/><time_taken name="t"/>'
     late, soon = run(part, 200, 'time_limit="0.5"'), run(part, 200)
@@ -231,6 +244,7 @@ def time_limit_ends_it_and_done_stops_the_clock():
 
 
 @check
+@alike
 def marks_and_score_follow_from_the_thresholds():
     """Two seconds: half way between good and pass is .75; worse than pass, on the same line, to 0."""
     grade = '<time_taken name="%s" good="%s" pass="%s" weight="%s"/>'
@@ -248,6 +262,7 @@ def marks_and_score_follow_from_the_thresholds():
 
 
 @check
+@alike
 def what_is_not_finished_is_not_good():
     """Where less is better; what is too much already has failed, and more that is better counts at once."""
     grade = '<time_taken name="time" good="3 s"/><time_taken name="late" good="0.5 s"/><economy name="economy" tool="one" good="50 %"/>'
@@ -260,6 +275,7 @@ def what_is_not_finished_is_not_good():
 
 
 @check
+@alike
 def what_no_tool_is_named_for_is_done_by_those_that_can():
     lifted = '<lifted name="%s" %s body="adnexa" height="0.0005"/>'
     found = steps(run_shipped("exercise-salpingectomy", '<grasped name="grasped" body="adnexa"/><clamped name="clamped" body="adnexa"/>' +
@@ -269,6 +285,8 @@ def what_no_tool_is_named_for_is_done_by_those_that_can():
 
 
 @check
+@alike
+@long_run
 def clip_holds_and_needle_pierces():
     clamp = steps(run_shipped("plate8-clamp", '<clamped name="yes" body="tube_right"/><held name="held" body="tube_right" '
                               'time="0.1"/><held name="long" body="tube_right" time="60"/>', 800))
@@ -294,6 +312,7 @@ def volume(mesh):
 
 
 @check
+@alike
 def suction_sucks_and_what_a_wound_gives_is_lost():
     """A wound that gives a particle each 2.5 ms; suction that takes one each 5 ms."""
     shipped = (SCENES / "plate3-blood.spore").read_text()
@@ -323,6 +342,7 @@ def suction_sucks_and_what_a_wound_gives_is_lost():
 
 
 @check
+@alike
 def a_wound_bleeds_from_the_cut_until_it_is_coagulated():
     if is_sanitized(SPORE):
         return
@@ -353,6 +373,7 @@ def a_wound_bleeds_from_the_cut_until_it_is_coagulated():
 
 
 @check
+@alike
 def salpingectomy_is_done_in_order_by_its_track_to_the_bit():
     def report(count, threads=1):
         return json.loads(spore("run", SCENES / "exercise-salpingectomy.spore", "-n", count, "--json", "--threads", threads).stdout)
@@ -384,6 +405,7 @@ def left(exercise):
 
 
 @check
+@alike
 def rings_go_over_and_back_by_their_track():
     """From hand to hand in mid-air is no drop; the other track lets a ring fall."""
     short = is_sanitized(SPORE)
@@ -413,6 +435,8 @@ def opened_between(track):
 
 
 @check
+@alike
+@long_run
 def a_tube_is_clamped_on_both_sides_and_cut_between():
     """By its track; another track cuts too early, and one opens a clamp before the cut. Strain is over a limit that the squeeze reaches, not over one beyond."""
     scene = SCENES / "exercise-clip-and-cut.spore"
@@ -437,6 +461,7 @@ def a_tube_is_clamped_on_both_sides_and_cut_between():
 
 
 @check
+@alike
 def pool_is_sucked_dry_by_its_track():
     """And not by a tube that takes as much as the wound gives."""
     short = is_sanitized(SPORE)
@@ -455,6 +480,7 @@ def pool_is_sucked_dry_by_its_track():
 
 
 @check
+@alike
 def probe_stirs_the_blood():
     """Until the probe comes to it, the blood flows as it does beside a probe that stays away."""
     if is_sanitized(SPORE):
@@ -472,6 +498,8 @@ def probe_stirs_the_blood():
 
 
 @check
+@alike
+@long_run
 def what_comes_before_its_turn_is_an_error():
     exercise = run_shipped("exercise-salpingectomy", '<lifted name="high" body="adnexa" height="5"/>'
                            '<coagulated name="early" body="adnexa" after="high"/><cut name="cut" body="ovary"/>'
@@ -481,6 +509,8 @@ def what_comes_before_its_turn_is_an_error():
 
 
 @check
+@alike
+@long_run
 def what_jaws_lose_is_a_drop():
     drops = '<drops name="drops" body="adnexa"/><grasped name="g" body="adnexa"/><lifted name="never" body="adnexa" height="5"/>'
     assert metrics(run_shipped("exercise-salpingectomy", drops, 600))["drops"]["value"] == 0
@@ -494,6 +524,7 @@ def what_jaws_lose_is_a_drop():
 
 
 @check
+@alike
 def reports_are_a_table_an_object_and_a_page_of_their_own():
     parts = ('<reached name="far" tool="one" point="0.1 0 0" radius="0.002"/><time_taken name="t" good="2 s" '
              'source="a &lt;b&gt; &quot;c&quot;"/><path_length name="p"/>')
@@ -544,6 +575,7 @@ def refused(parts, place, words, command="run"):
 
 
 @check
+@alike
 def bad_exercises_are_refused_with_place_and_remedy():
     reached = '<reached name="%s" tool="one" after="%s"/>'
     for parts, words in ((reached % ("a", "b") + reached % ("b", "a"), ("waits for", "let one of them")),
@@ -568,4 +600,4 @@ def bad_exercises_are_refused_with_place_and_remedy():
     assert "exercise" not in json.loads(spore("run", "scene.spore", "-n", "1", "--json").stdout)
 
 
-main()
+main(**dict(zip(("kind",), sys.argv[2:])))

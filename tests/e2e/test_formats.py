@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import vtk_files
-from tap import Skip, check, main, wait_for_work
+from tap import Skip, check, long_run, main, wait_for_work
 
 SPORE, SCENES, FEATURES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3].split(",")
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-formats-"))
@@ -203,6 +203,7 @@ def ply_mesh(file):
 
 
 @check
+@long_run
 def surfaces_are_those_of_the_series(*_):
     """OBJ, PLY and STL hold the surfaces of the same moment in the VTK series, with names and colours as far as they can"""
     for scene in ("laparoscopy",):
@@ -354,6 +355,7 @@ class Film:
 
 
 @check
+@long_run
 def a_film_moves_as_the_series(*_):
     """glTF: at each moment of the VTK series every body is within the error that is told, and rigid ones are where they were"""
     for scene, seconds, rigid, soft in (("plate1-ovary", "0.3", ["ovary_right"], []), ("plate4-deformed-ovary", "0.3", ["probe", "uterus"], ["ovary_right"]),

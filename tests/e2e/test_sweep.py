@@ -13,7 +13,7 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from tap import Skip, check, main
+from tap import Skip, check, long_run, main
 
 SPORE = os.path.abspath(sys.argv[1])
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-sweep-"))
@@ -99,6 +99,7 @@ def every_combination_is_a_case(*_):
 
 
 @check
+@long_run
 def killed_and_taken_up_again(*_):
     """A sweep of 200 cases that is killed five times loses nothing and repeats nothing"""
     here = folder("killed")
