@@ -157,7 +157,7 @@ static gboolean write_subject(SporeDocument *document, SporeObject *metric, cons
   if (kind->needs_strain && !body)
     return refuse(type,
                   _("the scene has no tissue whose strain is known; expected a net, a deformable surface, a spline, "
-                    "an intestine or nonlinear tetrahedra; add one first"),
+                    "an intestine, a grid, or tetrahedra that are not condensed; add one first"),
                   error);
   if (kind->needs_body && !body) return refuse(type, _("the scene has no body; expected one; add it first"), error);
   if (kind->needs_view && !camera) return refuse(type, _("the scene has no camera; expected one; add it first"), error);

@@ -130,7 +130,8 @@ static gboolean add_metric(Maker *maker, SporeObject *object, const SporeMetricK
   if (kind->needs_strain && !knows_strain(maker->compiler, metric.body))
     return spore_compiler_refuse(maker->compiler, object,
                                  _("body=\"%s\" has no strain that is known; expected a net, a deformable surface, a "
-                                   "spline, an intestine or nonlinear tetrahedra; choose another body"),
+                                   "spline, an intestine, a grid, or tetrahedra that are not condensed; choose "
+                                   "another body"),
                                  metric.fields.body);
   g_array_append_val(maker->metrics, metric);
   return TRUE;

@@ -161,6 +161,11 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_finite_differences);
+  return spore_lattice_strain(&((const Body *)model)->lattice, q);
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, const SporeCancel *cancel,
                 SporeMapping *mapping, SporeError *error) {
   assert(model->type == &spore_finite_differences);
@@ -199,6 +204,7 @@ const SporeModelType spore_finite_differences = {
     .place = place,
     .force = force,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .pattern = pattern,
     .jacobian = jacobian,

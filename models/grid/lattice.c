@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "models/common/stretch.h"
 
 #define NO_NODE UINT32_MAX
 
@@ -179,4 +180,28 @@ void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegi
         mass[corner_of(run, lane, c)] += 0.125 * total * run->volume[lane] / volume * factors.density;
       run->volume[lane] *= factors.stiffness;
     }
+}
+
+/* F at the middle of the cell: the modes of one sign. */
+static void find_gradient(const SporeLattice *lattice, const SporeLatticeRun *run, size_t lane, const double *q,
+                          SporeVec3 f[3]) {
+  for (unsigned k = 0; k < 3; k++) {
+    unsigned side = 4u >> k;
+    f[k] = (SporeVec3){0, 0, 0};
+    for (unsigned c = 0; c < 8; c++)
+      f[k] = spore_vec3_add_scaled(f[k], c & side ? lattice->mode_scale[side] : -lattice->mode_scale[side],
+                                   spore_vec3_load(q + 3 * (size_t)corner_of(run, lane, c)));
+  }
+}
+
+double spore_lattice_strain(const SporeLattice *lattice, const double *q) {
+  assert(lattice->run_count > 0);
+  double most = 0;
+  for (size_t r = 0; r < lattice->run_count; r++)
+    for (size_t lane = 0; lane < lattice->runs[r].count; lane++) {
+      SporeVec3 f[3];
+      find_gradient(lattice, &lattice->runs[r], lane, q, f);
+      most = spore_stretch_square(f, most);
+    }
+  return sqrt(most) - 1;
 }

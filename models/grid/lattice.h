@@ -67,6 +67,9 @@ void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegi
 bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, const SporeCancel *cancel,
                        SporeMapping *mapping, SporeError *error);
 
+/* The largest stretch at the middle of a cell, less 1. */
+double spore_lattice_strain(const SporeLattice *lattice, const double *q);
+
 /* f += forces of a slab, the viscous ones with F and W as they are in shape. */
 SPORE_DECLARE_KERNEL(void, spore_lattice_force, const SporeLattice *lattice, size_t slab, SporeElasticity elasticity,
                      const double *q, const double *shape, const double *v, double *f);

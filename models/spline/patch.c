@@ -188,3 +188,24 @@ size_t spore_patch_set_rest(SporePatch *patch, const double *control, double *sh
     }
   return least > 1e-4 * whole / (double)(SPORE_PATCH_POINTS * patch->cell_count) ? SIZE_MAX : where;
 }
+
+/* The larger eigenvalue of the products of a1 and a2: the square of the largest stretch at a Gauss point. */
+static double stretch_square(const SporePatch *patch, size_t cell, int point, const double *q) {
+  const SporePatchGauss *gauss = &patch->gauss[cell / SPORE_LANES * SPORE_PATCH_POINTS + (size_t)point];
+  SporeVec3 a[2] = {{0, 0, 0}, {0, 0, 0}};
+  for (size_t i = 0; i < FUNCTIONS; i++)
+    for (int k = 0; k < 2; k++)
+      a[k] = spore_vec3_add_scaled(a[k], gauss->first[k][i][cell % SPORE_LANES],
+                                   spore_vec3_load(q + 3 * (size_t)node_of(patch, cell, i)));
+  double along = spore_vec3_dot(a[0], a[0]), across = spore_vec3_dot(a[1], a[1]), both = spore_vec3_dot(a[0], a[1]);
+  double half = (along - across) / 2;
+  return (along + across) / 2 + sqrt(half * half + both * both);
+}
+
+double spore_patch_strain(const SporePatch *patch, const double *q) {
+  assert(patch->cell_count > 0);
+  double most = 0;
+  for (size_t cell = 0; cell < patch->cell_count; cell++)
+    for (int point = 0; point < SPORE_PATCH_POINTS; point++) most = fmax(most, stretch_square(patch, cell, point, q));
+  return sqrt(most) - 1;
+}

@@ -66,6 +66,9 @@ bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const 
 /* Points of the sheet, 3 each, even by its parameters and four a span each way. False: no memory. */
 bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, double **points, size_t *count);
 
+/* The largest stretch of the sheet at its Gauss points, less 1. */
+double spore_patch_strain(const SporePatch *patch, const double *q);
+
 /* Forces, energy and stiffness as SporeModelType says; force_along where h > 0. Viscous: the rates of E and of
  * b_k.(a1 x a2), each times viscous and its stiffness. */
 SPORE_DECLARE_KERNEL(void, spore_patch_force, const SporePatch *patch, const double *q, const double *shape,

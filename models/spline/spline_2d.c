@@ -131,6 +131,11 @@ static void force(const SporeModel *model, const double *q, const double *shape,
   force_along(model, q, shape, v, 0, f);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_spline_2d);
+  return spore_patch_strain(&((const Spline2d *)model)->patch, q);
+}
+
 static double potential(const SporeModel *model, const double *q) {
   assert(model->type == &spore_spline_2d);
   return SPORE_KERNEL(spore_patch_potential)(&((const Spline2d *)model)->patch, q);
@@ -188,6 +193,7 @@ const SporeModelType spore_spline_2d = {
     .force = force,
     .force_along = force_along,
     .potential = potential,
+    .strain = strain,
     .map = map,
     .samples = samples,
     .pattern = pattern,

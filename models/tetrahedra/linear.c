@@ -2,10 +2,12 @@
  * deformations, and force feedback for surgery training and simulation"): the stiffness of each edge and vertex is made
  * once, and a force is one product with it. */
 #include <assert.h>
+#include <math.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "models/common/nodal.h"
+#include "models/common/stretch.h"
 #include "models/registry.h"
 #include "models/tetrahedra/linear_solid.h"
 #include "models/tetrahedra/map.h"
@@ -42,6 +44,26 @@ static bool map(const SporeModel *model, const double *points, size_t count, con
   return spore_tetrahedra_map(&((const SporeLinearSolid *)model)->nodes, points, count, cancel, mapping, error);
 }
 
+static double strain(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_linear_tetrahedra);
+  const SporeLinearSolid *body = (const SporeLinearSolid *)model;
+  double most = 0;
+  for (size_t n = 0; n < body->nodes.mesh.tetrahedron_count; n++) {
+    const uint32_t *corners = body->nodes.nodes + 4 * n;
+    SporeVec3 f[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, weight[3];
+    spore_tetrahedron_gradients(body->place, corners, weight);
+    for (int k = 0; k < 3; k++) {
+      SporeVec3 edge =
+          spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)corners[k + 1]), spore_vec3_load(q + 3 * (size_t)corners[0]));
+      f[0] = spore_vec3_add_scaled(f[0], weight[k].x, edge);
+      f[1] = spore_vec3_add_scaled(f[1], weight[k].y, edge);
+      f[2] = spore_vec3_add_scaled(f[2], weight[k].z, edge);
+    }
+    most = spore_stretch_square(f, most);
+  }
+  return sqrt(most) - 1;
+}
+
 const SporeModelType spore_linear_tetrahedra = {
     .name = "linear_tetrahedra",
     .label = N_("Linear tetrahedra"),
@@ -53,5 +75,6 @@ const SporeModelType spore_linear_tetrahedra = {
            "steps take about as long as those of neo-Hookean tetrahedra, which have no limit of strain."),
     .create = create,
     .map = map,
+    .strain = strain,
     SPORE_LINEAR_SOLID_SLOTS,
 };
