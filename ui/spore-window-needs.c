@@ -96,6 +96,7 @@ static const struct {
     {"select-organs", BODIES},
     {"add-pin", BODIES},
     {"add-link", BODIES},
+    {"add-fluid", BODIES},
     {"tie-link", LINK},
     {"lead", HANDS},
     {"lead-next", HANDS},

@@ -77,8 +77,9 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  GMenu *mesh_operations;                                       /* in the menu */
-  GMenu *link_kinds, *instrument_kinds, *menu, *speeds, *hands; /* hands: the instruments that can be led */
+  GMenu *mesh_operations; /* in the menu */
+  GMenu *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
+      *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
@@ -145,6 +146,11 @@ void spore_window_stop_picking(SporeWindow *self);
 void spore_window_add_link_actions(SporeWindow *self);
 /* An entry for each kind of link that the schema has. */
 void spore_window_fill_link_menu(SporeWindow *self);
+
+/* spore-window-fluids.c: fluids of the library. */
+void spore_window_add_fluid_actions(SporeWindow *self);
+/* An entry for each kind of fluid. */
+void spore_window_fill_fluid_menu(SporeWindow *self);
 
 /* spore-window-instruments.c: instruments of the library. */
 void spore_window_add_instrument_actions(SporeWindow *self);

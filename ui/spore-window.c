@@ -187,6 +187,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, speeds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, instrument_kinds);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, fluid_kinds);
 }
 
 static void spore_window_class_init(SporeWindowClass *class) {
@@ -228,6 +229,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_pick_actions(self);
   spore_window_add_link_actions(self);
   spore_window_add_instrument_actions(self);
+  spore_window_add_fluid_actions(self);
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
@@ -248,6 +250,7 @@ SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *sc
   self->scenes = g_strdup(scenes);
   spore_window_fill_link_menu(self);
   spore_window_fill_instrument_menu(self);
+  spore_window_fill_fluid_menu(self);
   g_action_group_activate_action(G_ACTION_GROUP(self), "new", NULL);
   self->fresh = TRUE;
   return self;

@@ -12,16 +12,21 @@
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
- *               that is led], lead-next, add-pin, add-region [s path of what holds it], place-region [s path] (in the
- * view), remove-region [s path], add-link [s element], tie-link (the selected one), pick-back, pick-done patient [s
- * position; state, "": none] generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of
- * spheres, tetrahedra, curve, surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places
- * (state), automatic-places; apply-generated, cancel-job mesh        change-mesh [s operation, d argument],
- * change-mesh-dialog [s operation]: of the selected mesh or body; measure-mapping: of the selected body study
- * measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in .html, .csv or
- * .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path], save-plan-dialog exercise    add-step [s
- * element], aim-step, add-metric [s element], move-part [i -1 or 1], remove-part (the selected one), set-threshold [s
- * path, s "good" or "pass", s number and unit], skip-to-step, repeat-attempt [x when it ended, s since 1970],
+ *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,
+ *               add-region [s path of what holds it], place-region [s path] (in the view), remove-region [s path],
+ *               add-link [s element], tie-link (the selected one), pick-back, pick-done,
+ *               patient [s position; state, "": none]
+ *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
+ *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
+ *               automatic-places; apply-generated, cancel-job
+ *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
+ *               measure-mapping: of the selected body
+ *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in
+ *               .html, .csv or .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path],
+ *               save-plan-dialog
+ *   exercise    add-step [s element], aim-step, add-metric [s element], move-part [i -1 or 1], remove-part (the
+ *               selected one), set-threshold [s path, s "good" or "pass", s number and unit], skip-to-step,
+ *               repeat-attempt [x when it ended, s since 1970],
  *               film-attempts [s path, ax when they ended, s since 1970: one, or two side by side],
  *               film-attempts-dialog [ax],
  *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]
@@ -29,12 +34,13 @@
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
- *               show-inspector, show-problems, present (state), show-guide (state: the steps of the
- *               exercise while present is on), filter, measure [s "distance", "angle" or "volume"],
- *               swap-views (to the scene's camera and back), turn-optic [d degrees] (of the camera that is selected,
- * looked through, or the first), clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
- *   others      search (for any of these), open-menu, report [s message]; of the application: look [s "system", "light"
- *               or "dark"; state], new-window, about, quit
+ *               show-inspector, show-problems, present (state), show-guide (state: the steps of the exercise while
+ *               present is on), filter, measure [s "distance", "angle" or "volume"],
+ *               swap-views (to the scene's camera and back),
+ *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
+ *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
+ *   others      search (for any of these), open-menu, report [s message]; of the application:
+ *               look [s "system", "light" or "dark"; state], new-window, about, quit
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

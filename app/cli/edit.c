@@ -5,6 +5,7 @@
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
 #include "core/author/edits.h"
+#include "core/author/fluid_edits.h"
 #include "core/author/instrument_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
@@ -14,7 +15,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, **instrument, *patient, *output;
+  char **add, **soft, **set, **hold, **fluid, **instrument, *patient, *output;
   gboolean probe;
 } Request;
 
@@ -116,6 +117,44 @@ static SporeObject *add_instrument(SporeDocument *document, const char *text, GE
   return spore_edit_add_instrument(document, instrument, name && *name ? name : NULL, places, error);
 }
 
+/* The fluid of that name; NULL with an error that lists the library. */
+static const SporeFluidKind *find_fluid(const char *text, const char *name, GError **error) {
+  const SporeFluidKind *found = spore_fluid_find(name);
+  g_autoptr(GString) names = g_string_new(NULL);
+  if (found) return found;
+  for (const SporeFluidKind *one = spore_fluids; one->name; one++)
+    g_string_append_printf(names, names->len ? ", %s" : "%s", one->name);
+  spore_error_raise(error, SPORE_ERROR_INPUT, text, _("there is no fluid \"%s\"; expected one of: %s"), name,
+                    names->str);
+  return NULL;
+}
+
+/* KIND[:NAME]@PLACE */
+static SporeObject *add_fluid(SporeDocument *document, const char *text, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, "@", 2);
+  SporeVec3 place;
+  char *name = parts[0] ? strchr(parts[0], ':') : NULL;
+  if (name) *name++ = '\0';
+  const SporeFluidKind *kind = parts[0] ? find_fluid(text, parts[0], error) : NULL;
+  if (parts[0] && !kind) return NULL;
+  if (!kind || !parts[1] || !spore_place_parse(parts[1], &place)) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, text,
+                      _("this is no fluid and its place; expected KIND@X,Y,Z in metres, on an organ, such as "
+                        "bleeding@0,0.02,0"));
+    return NULL;
+  }
+  return spore_edit_add_fluid(document, kind, name && *name ? name : NULL, NULL, place, error);
+}
+
+static gboolean add_fluids(SporeDocument *document, char **texts, GPtrArray *changed, GError **error) {
+  for (; texts && *texts; texts++) {
+    SporeObject *added = add_fluid(document, *texts, error);
+    if (!added) return FALSE;
+    note(changed, added);
+  }
+  return TRUE;
+}
+
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->add; path && *path; path++) {
@@ -138,6 +177,7 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     if (!added) return FALSE;
     note(changed, added);
   }
+  if (!add_fluids(document, request->fluid, changed, error)) return FALSE;
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
   return probe || !request->probe;
@@ -209,6 +249,13 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
           "endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
+      {"fluid", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.fluid,
+       N_("Add a fluid at a place of an organ, m, after its instruments: KIND@X,Y,Z or KIND:NAME@X,Y,Z; bleeding, "
+          "wound (bleeds from a "
+          "cut until it is coagulated), pool (poured there), steam, coagulation (steam of the bipolar instrument that "
+          "is nearest) "
+          "(may be repeated)"),
+       "KIND@X,Y,Z"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
@@ -216,16 +263,17 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
-                 request.probe;
+                 request.fluid || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
-                               "--instrument or --probe; give one of them"));
+                               "--instrument, --fluid or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
   g_strfreev(request.soft);
   g_strfreev(request.set);
   g_strfreev(request.hold);
+  g_strfreev(request.fluid);
   g_strfreev(request.instrument);
   g_free(request.patient);
   g_free(request.output);

@@ -51,6 +51,22 @@ SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, c
   return name && *name ? spore_document_find(document, element, name) : NULL;
 }
 
+SporeObject *spore_edit_put_asset(SporeDocument *document, const char *element, const char *name, const char *extension,
+                                  char *text, gsize size, GError **error) {
+  g_autofree char *file = spore_content_file_name(name, extension, text, size);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  SporeObject *assets = spore_document_section(document, "assets");
+  for (guint i = 0; i < spore_object_child_count(assets); i++) {
+    SporeObject *asset = spore_object_child(assets, i);
+    if (g_str_equal(spore_object_type(asset)->element, element) &&
+        g_strcmp0(spore_object_text(asset, "file"), file) == 0)
+      return asset;
+  }
+  spore_document_put_blob(document, file, content);
+  SporeObject *asset = spore_document_insert(document, assets, element, name, G_MAXUINT, error);
+  return asset && spore_document_set_text(document, asset, "file", file, error) ? asset : NULL;
+}
+
 SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error) {
   SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
   if (!mesh) {

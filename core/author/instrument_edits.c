@@ -6,7 +6,6 @@
 
 #include "core/author/edits.h"
 #include "core/io/mesh_import.h"
-#include "core/io/organ.h"
 #include "core/math/quat.h"
 #include "core/scene/camera_sight.h"
 #include "core/scene/compile.h"
@@ -141,23 +140,12 @@ static gboolean place(Addition *addition, const SporeInstrumentPlaces *places, G
 
 /* Bodies. */
 
-/* The asset with this content, which is made where the scene has none. Takes text. */
+/* The asset with this content. Takes text. */
 static SporeObject *put_asset(const Addition *addition, const char *element, const char *part, const char *extension,
                               char *text, gsize size, GError **error) {
   gboolean felt = g_str_equal(element, "spheres");
   g_autofree char *name = g_strdup_printf(felt ? "%s_%s_spheres" : "%s_%s", addition->instrument->name, part);
-  g_autofree char *file = spore_content_file_name(name, extension, text, size);
-  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
-  SporeObject *assets = spore_document_section(addition->document, "assets");
-  for (guint i = 0; i < spore_object_child_count(assets); i++) {
-    SporeObject *asset = spore_object_child(assets, i);
-    if (g_str_equal(spore_object_type(asset)->element, element) &&
-        g_strcmp0(spore_object_text(asset, "file"), file) == 0)
-      return asset;
-  }
-  spore_document_put_blob(addition->document, file, content);
-  SporeObject *asset = insert(addition, "assets", element, name, error);
-  return asset && set(addition, asset, "file", file, error) ? asset : NULL;
+  return spore_edit_put_asset(addition->document, element, name, extension, text, size, error);
 }
 
 static SporeObject *insert_body(const Addition *addition, const char *name, GError **error) {

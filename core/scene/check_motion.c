@@ -35,6 +35,7 @@ typedef struct Start {
   GPtrArray *bodies; /* SporeObject * */
   GArray *roles;     /* SporeRole, of the bodies */
   GArray *groups;    /* gint64, of the bodies */
+  GArray *absent;    /* gboolean, of the bodies: of particles that emitters keep back, all of them */
   GArray *balls;     /* of Ball, along x */
   SporeVec3 gravity; /* m/s^2 */
   double *drops;     /* m, of the bodies: how far each falls; HUGE_VAL: for ever; 0: not, or it lies on something */
@@ -47,6 +48,11 @@ static gboolean may_touch(const Start *start, guint a, guint b) {
   return a != b && (group == 0 || group != g_array_index(start->groups, gint64, b));
 }
 
+static const SporeModelParticles *particles_of(const SporeObject *body) {
+  const SporeObject *model = spore_body_model_object(body);
+  return model ? spore_object_type(model)->model->particles : NULL;
+}
+
 /* Adds the collision spheres of a body's model. Only the world knows their places. */
 static void place_own_spheres(Start *start, SporeObject *body, guint index, const SporeSimulation *simulation) {
   const SporeSpheres *spheres = spore_world_spheres(simulation->world);
@@ -56,6 +62,12 @@ static void place_own_spheres(Start *start, SporeObject *body, guint index, cons
     Ball ball = {spore_vec3_load(spheres->centre + 3 * i), spheres->radius[i], index};
     g_array_append_val(start->balls, ball);
   }
+}
+
+static gboolean is_absent(SporeObject *body, const SporeSimulation *simulation) {
+  guint32 index = simulation && particles_of(body) ? spore_simulation_body_of(simulation, body) : SPORE_NO_BODY;
+  return index != SPORE_NO_BODY && spore_world_body_model(simulation->world, index) &&
+         spore_world_particle_count(simulation->world, index) == 0;
 }
 
 /* simulation: NULL where the scene cannot be compiled. */
@@ -72,6 +84,8 @@ static void place_body(Start *start, SporeObject *body, const SporeSimulation *s
   if (collision) spore_object_fields(collision, &touch);
   g_array_append_val(start->roles, role);
   g_array_append_val(start->groups, touch.contact.group);
+  gboolean absent = is_absent(body, simulation);
+  g_array_append_val(start->absent, absent);
   if (simulation && spore_body_has_own_spheres(body)) place_own_spheres(start, body, index, simulation);
   SporePose pose = spore_body_pose(body);
   g_autofree double *radius = set ? g_new(double, set->count) : NULL;
@@ -138,11 +152,6 @@ static double drop_to(const Start *start, const Ball *falling, const Ball *under
 }
 
 /* Air holds smoke up. */
-static const SporeModelParticles *particles_of(const SporeObject *body) {
-  const SporeObject *model = spore_body_model_object(body);
-  return model ? spore_object_type(model)->model->particles : NULL;
-}
-
 static gboolean is_smoke(const SporeObject *body) {
   const SporeModelParticles *particles = particles_of(body);
   return particles && particles->puff;
@@ -157,8 +166,8 @@ static gboolean is_effect(const Start *start, const SporeObject *body) {
 /* Whether the body falls: physics moves it, and no link holds it. */
 static gboolean is_loose(const Start *start, guint body) {
   const SporeObject *object = start->bodies->pdata[body];
-  return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) && !is_effect(start, object) &&
-         !spore_check_is_used(start->check, object, SPORE_HOLDING);
+  return role_of(start, body) == SPORE_PASSIVE && !g_array_index(start->absent, gboolean, body) && !is_smoke(object) &&
+         !is_effect(start, object) && !spore_check_is_used(start->check, object, SPORE_HOLDING);
 }
 
 /* Whether what falls on the body may come to lie there. */
@@ -300,6 +309,7 @@ void spore_check_motion(SporeCheck *check) {
                  .bodies = g_ptr_array_new(),
                  .roles = g_array_new(FALSE, FALSE, sizeof(SporeRole)),
                  .groups = g_array_new(FALSE, FALSE, sizeof(gint64)),
+                 .absent = g_array_new(FALSE, FALSE, sizeof(gboolean)),
                  .balls = g_array_new(FALSE, FALSE, sizeof(Ball))};
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
@@ -322,5 +332,6 @@ void spore_check_motion(SporeCheck *check) {
   g_ptr_array_unref(start.bodies);
   g_array_unref(start.roles);
   g_array_unref(start.groups);
+  g_array_unref(start.absent);
   g_array_unref(start.balls);
 }

@@ -2275,6 +2275,32 @@ def every_instrument_is_placed():
 
 
 @check
+def fluids_are_placed():
+    """a click on an organ makes it bleed: the emitter and its fluid come out of that organ, run, and are undone in one step; a click beside, or on what cannot be cut, is refused in words."""
+    with start(two_balls("fluids")) as editor:
+        left, right, above = on_balls(editor)
+        editor.act("add-fluid", "s", "wound")
+        editor.find("label", "^Bleeding of a cut, click 1 of 1: a place on the organ")
+        editor.mouse("mousemove", *right, "click", 1)
+        ui.wait(lambda: "make it soft first" in (editor.message() or ""), "the refusal of what cannot be cut")
+        editor.act("add-fluid", "s", "bleeding")
+        editor.find("label", "^Bleeding, click 1 of 1: ")
+        editor.mouse("mousemove", *above, "click", 1)
+        ui.wait(lambda: "there is no organ here" in (editor.message() or ""), "the refusal of a click beside")
+        assert not editor.enabled("undo")
+        editor.mouse("mousemove", *left, "click", 1)
+        ui.wait(lambda: editor.row("bleeding") and editor.row("blood"), "the emitter and its fluid")
+        ui.wait(lambda: editor.enabled("rename"), "it to be selected")
+        emitter = xml.etree.ElementTree.fromstring(saved(editor, "fluids")).find("effects/emitter").attrib
+        assert emitter["source"] == "left" and emitter["body"] == "blood" and vector(emitter["direction"])[2] > 0.9, emitter
+        editor.act("step")
+        ui.wait(lambda: editor.time_s() and editor.time_s() > 0, "it to run")
+        editor.act("reset")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("bleeding") and not editor.row("blood"), "it to be undone in one step")
+
+
+@check
 def an_instrument_by_the_keyboard():
     """Escape takes a click back and ends the placing; places too near to each other are refused in words; Enter leaves the rest to the library."""
     with start(two_balls("led")) as editor:

@@ -47,6 +47,7 @@ static GMenu *menu_of_body(SporeViewport *self) {
   g_menu_append(menu, _("Make soft"), "win.make-soft");
   g_menu_append(menu, _("Hold"), "win.add-pin");
   g_menu_append_submenu(menu, _("Add link"), self->link_kinds);
+  g_menu_append_submenu(menu, _("Add fluid"), self->fluid_kinds);
   g_menu_append(menu, _("Hide"), "win.hide");
   g_menu_append(menu, _("Show only this"), "win.isolate");
   g_menu_append(menu, _("Show all"), "win.show-all");

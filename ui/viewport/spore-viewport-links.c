@@ -128,6 +128,8 @@ void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds) {
   gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->link_button), kinds);
 }
 
+void spore_viewport_set_fluid_menu(SporeViewport *self, GMenuModel *kinds) { g_set_object(&self->fluid_kinds, kinds); }
+
 void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, guint count) {
   self->outline_count = MIN(count, G_N_ELEMENTS(self->outline));
   for (guint i = 0; i < self->outline_count; i++) self->outline[i] = points[i];

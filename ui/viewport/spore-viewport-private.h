@@ -24,8 +24,8 @@ struct _SporeViewport {
   guint anchor_count;
   SporeVec3 outline[SPORE_OUTLINE_POINTS]; /* of an instrument that is being placed */
   guint outline_count;
-  GArray *link_marks;                        /* of the scene's links, see spore-viewport-links.c */
-  GMenuModel *link_kinds, *instrument_kinds; /* for menus */
+  GArray *link_marks;                                      /* of the scene's links, see spore-viewport-links.c */
+  GMenuModel *link_kinds, *instrument_kinds, *fluid_kinds; /* for menus */
   SporeStageOptions options;
   gboolean presented;
   gboolean figures; /* in the corner, those of an author, too */

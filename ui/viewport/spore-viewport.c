@@ -351,6 +351,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->measures, spore_viewport_measures_free);
   g_clear_object(&self->link_kinds);
   g_clear_object(&self->instrument_kinds);
+  g_clear_object(&self->fluid_kinds);
   spore_viewport_clear_legend(self);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }

@@ -70,7 +70,9 @@ void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, gu
 guint spore_viewport_key_of(const char *action);
 /* The kinds of links, for the view's button and menu. */
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
-/* The kinds of instruments, the same, and the instruments that can be led. */
+/* The kinds of fluids, for the view's menu. */
+void spore_viewport_set_fluid_menu(SporeViewport *self, GMenuModel *kinds);
+/* The kinds of instruments, as those of links, and the instruments that can be led. */
 void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led);
 /* Lays messages over the foot of the view, below the figures: the picture and its tools stay where they are. */
 void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages);

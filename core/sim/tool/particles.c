@@ -258,8 +258,8 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
   if (wound && (!source || !source->model))
     return _("the mouth is in nothing that can be cut, so that nothing comes out; expected the body that bleeds; "
              "choose it, or another trigger");
-  if (!to_world && (!source || (deforms(source) && !wound)))
-    return _("the mouth is in a body that deforms; expected a rigid, active or unmovable one, or none; choose another");
+  if (!to_world && !source)
+    return _("the mouth is in a body that is not there; expected another one, or none; choose one");
   if (!spore_vec3_is_finite(from->point) || !spore_vec3_is_finite(from->direction) ||
       !(spore_vec3_length(from->direction) > 0))
     return _("the mouth has no direction; expected a vector of any length but 0; set it");
