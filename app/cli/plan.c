@@ -193,6 +193,23 @@ static void report_bodies(SporeCli *cli, const SporeDocument *document, const Sp
   spore_cli_say(cli, "%s", remarks->str);
 }
 
+static void report_effects(SporeCli *cli, const SporeWorld *world) {
+  spore_cli_open_array(cli, "effects");
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    const char *name = spore_world_body_name(world, body);
+    double effect_us, physics_us;
+    if (!spore_world_effect_work(world, body, &effect_us, &physics_us)) continue;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", name);
+    spore_cli_number(cli, "effect_us", effect_us);
+    spore_cli_number(cli, "physics_us", physics_us);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("%s: an effect, which takes about %.3g us of a step; its physics would take %.3g us\n"), name,
+                  effect_us, physics_us);
+  }
+  spore_cli_close_array(cli);
+}
+
 static void report_left_out(SporeCli *cli, const SporePlanLeftOut *left_out, const SporeWorld *world,
                             const SporeWorld *unpruned) {
   double saves_us = unpruned ? spore_pruning_saved_us(world, unpruned, left_out->stages) : NAN;
@@ -238,6 +255,7 @@ static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, cons
   spore_plan_report_files_left_out(cli, needs);
   spore_cli_close_array(cli);
   report_bodies(cli, document, world);
+  report_effects(cli, world);
   report_branches(cli, world);
 }
 
@@ -262,6 +280,9 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "none would, or none need to. impacts: what follows its impacts with rigid bodies in parts of the step; "
           "null: nothing does. damping_a_second: the share of its energy that the method takes from "
           "its slowest swing; null: not known")},
+      {"effects",
+       N_("bodies that an effect moves: name, effect_us (of a step, by counts), physics_us (the same of their physics, "
+          "without contacts and links)")},
       {"branches",
        N_("names of held bodies by static, which may have several balances: the one reached by following the load "
           "from the state before is taken")},

@@ -40,6 +40,24 @@ static bool is_held(Exercise exercise, const SporeWorld *world, uint32_t instrum
 
 /* Contacts and holds. */
 
+#define DROP_REACH 1.02 /* of the radii: drops are put out of what they touch */
+
+/* Whether an instrument touches drops of a fluid that is an effect, which nothing feels. */
+static bool is_wetted(Exercise exercise, uint32_t body, const SporeWorld *world, uint32_t instrument) {
+  const SporeSpheres *all = spore_world_spheres(world);
+  const SporeModel *model = spore_world_body_model(world, body);
+  if (!model || !model->type->particles || !spore_world_body_is_effect(world, body)) return false;
+  size_t start = 0, end;
+  while (start < all->count && all->body[start] != body) start++;
+  end = start + spore_world_body_sphere_count(world, body);
+  for (size_t s = 0; s < all->count; s++)
+    for (size_t d = start; d < end && exercise->instrument_of[all->body[s]] == instrument; d++)
+      if (spore_vec3_distance(spore_vec3_load(all->centre + 3 * s), spore_vec3_load(all->centre + 3 * d)) <
+          DROP_REACH * (all->radius[s] + all->radius[d]))
+        return true;
+  return false;
+}
+
 static bool is_touched(Exercise exercise, SporeStepRun *step, const SporeWorld *world, uint32_t instrument) {
   if (instrument == SPORE_NO_PART) return false;
   for (size_t i = 0; i < spore_world_contact_count(world); i++) {
@@ -48,7 +66,7 @@ static bool is_touched(Exercise exercise, SporeStepRun *step, const SporeWorld *
     bool is_of_body = touch.body_a == step->from.body || touch.body_b == step->from.body;
     if (is_of_body && touch.force > 0 && exercise->instrument_of[other] == instrument) return true;
   }
-  return false;
+  return is_wetted(exercise, step->from.body, world, instrument);
 }
 
 static const SporeParameter touched_rows[] = {NAMED, TOOL(SPORE_INSTRUMENT_ELEMENTS), BODY,

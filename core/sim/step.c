@@ -2,6 +2,8 @@
  * schedule and costs nothing. */
 #include "core/sim/step.h"
 
+#include <assert.h>
+
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
@@ -92,30 +94,43 @@ static size_t degrees_of_freedom(const SporeWorld *world) { return spore_world_d
 #define EXPLICIT_US 0.06 /* a block in an explicit substep */
 #define VERIFY_US 0.02   /* a degree of freedom */
 
+static double physics_of(const SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  SporeBodyWork work;
+  if (spore_world_body_work(world, index, &work)) return ITERATIONS * 1e6 * work.step_s;
+  if (spore_integrator(body->method.integrator)->implicit) return FRAME_US;
+  return EXPLICIT_US * (double)(body->method.substeps * body->block_count);
+}
+
 static double integrate_work(const SporeWorld *world) {
   double sum = 0;
-  for (uint32_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    SporeBodyWork work;
-    if (!spore_body_is_physical(body)) continue;
-    if (spore_world_body_work(world, b, &work)) sum += ITERATIONS * 1e6 * work.step_s;
-    else if (spore_integrator(body->method.integrator)->implicit) sum += FRAME_US;
-    else sum += EXPLICIT_US * (double)(body->method.substeps * body->block_count);
-  }
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (spore_body_is_physical(&world->bodies[b])) sum += physics_of(world, b);
   return sum;
 }
 
 #define EFFECT_US 5  /* a body */
-#define DROP_US 0.05 /* a drop, each time that drops move */
+#define DROP_US 0.15 /* a drop, each time that drops move */
+
+static double effect_of(const SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  if (!body->effect.drops.from) return EFFECT_US;
+  return DROP_US * (double)body->block_count * world->solver.time_step / SPORE_POUR_PACE_S;
+}
 
 static double effects_work(const SporeWorld *world) {
   double sum = 0;
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    double times = world->solver.time_step / SPORE_POUR_PACE_S;
-    if (body->effect.on) sum += body->effect.drops.from ? times * DROP_US * (double)body->block_count : EFFECT_US;
-  }
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].effect.on) sum += effect_of(world, b);
   return sum;
+}
+
+bool spore_world_effect_work(const SporeWorld *world, uint32_t body, double *effect_us, double *physics_us) {
+  assert(body < world->body_count);
+  if (!world->bodies[body].effect.on) return false;
+  *effect_us = effect_of(world, body);
+  *physics_us = physics_of(world, body);
+  return true;
 }
 
 static double verify_work(const SporeWorld *world) { return VERIFY_US * (double)spore_world_dof(world); }

@@ -476,6 +476,9 @@ typedef enum SporeEffectForm {
 SporeEffectForm spore_model_effect_form(const SporeModel *model);
 /* Whether an effect moves the passive body now. */
 bool spore_world_body_is_effect(const SporeWorld *world, uint32_t body);
+/* Time that the effect takes of a step, us, and that the body's physics would take without contacts and links, by
+ * counts on a machine of 2024. False: no effect moves the body. */
+bool spore_world_effect_work(const SporeWorld *world, uint32_t body, double *effect_us, double *physics_us);
 /* Whether the body sleeps: it was at rest for long enough, and is not computed until something wakes it. */
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 

@@ -1154,6 +1154,9 @@ def effects_change_nothing_else():
     hashes = [{body["name"]: body["hash"] for body in answer["bodies"]} for answer in (poured, lapped)]
     assert {name for name in hashes[0] if hashes[0][name] != hashes[1][name]} == {"blood"}, hashes
     assert poured["dof"] == 0 < lapped["dof"] and not poured["monitor"]["messages"], poured
+    told, none = (report("plan", SCENES / "plate3-blood.spore", "--set", f"bodies/blood/fidelity/mode={mode}")["effects"]
+                  for mode in ("effect", "physical"))
+    assert none == [] and told[0]["name"] == "blood" and 0 < told[0]["effect_us"] < 0.2 * told[0]["physics_us"], (none, told)
 
 
 def hanging(name, density, links='<spring name="tie" body_a="organ" body_b="extra" point_a="0 -0.03 0" point_b="0 -0.07 0" stiffness="20" damping="0.05"/>'):

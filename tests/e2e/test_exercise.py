@@ -68,11 +68,9 @@ def run(parts, steps, attributes="", *options):
 def run_shipped(name, parts, steps, effect=""):
     """A shipped scene, with an exercise of these parts; effect: the body that is one."""
     text = (SCENES / f"{name}.spore").read_text().split("<exercise")[0].replace("</spore>", "")
-    if effect:
-        head, body = text.split(f'<body name="{effect}">')
-        text = f'{head}<body name="{effect}">' + body.replace("</body>", '<fidelity mode="effect"/></body>', 1)
+    mode = ["--set", f"bodies/{effect}/fidelity/mode=effect"] if effect else []
     (SCENES / "part.spore").write_text(f"{text}<exercise>{parts}</exercise></spore>")
-    done = subprocess.run([SPORE, "run", SCENES / "part.spore", "-n", str(steps), "--json"], capture_output=True,
+    done = subprocess.run([SPORE, "run", SCENES / "part.spore", "-n", str(steps), "--json", *mode], capture_output=True,
                           text=True, timeout=300)
     assert done.returncode in (0, 1), done.stderr
     return json.loads(done.stdout)["exercise"]
@@ -495,6 +493,9 @@ def probe_stirs_the_blood():
     assert blood(14000) != blood(14000, *away)
     touched = steps(run_shipped("plate3-blood", '<touched name="stirred" body="blood" tool="right"/>', 14000))["stirred"]
     assert touched["phase"] == "done" and touched["done_s"] > 0.7, touched
+    part = '<touched name="stirred" body="blood" tool="right"/>'
+    early, late = (steps(run_shipped("plate3-blood", part, count, effect="blood"))["stirred"] for count in (6000, 14000))
+    assert early["phase"] != "done" and late["phase"] == "done" and abs(late["done_s"] - touched["done_s"]) < 0.3, (early, late, touched)
 
 
 @check

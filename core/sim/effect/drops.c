@@ -33,8 +33,14 @@ static void find_cube(const double *at, double side, int32_t *cube) {
   for (int k = 0; k < 3; k++) cube[k] = (int32_t)fmax(fmin(floor(at[k] / side), 1e9), -1e9);
 }
 
-static uint32_t slot_of(const SporeDrops *drops, const int32_t *cube) {
-  uint32_t hash = (uint32_t)cube[0] * 73856093u ^ (uint32_t)cube[1] * 19349663u ^ (uint32_t)cube[2] * 83492791u;
+/* Share of the cube's slot along an axis. */
+static uint32_t share_of(int32_t place, int axis) {
+  static const uint32_t primes[3] = {73856093u, 19349663u, 83492791u};
+  return (uint32_t)place * primes[axis];
+}
+
+static uint32_t slot_of(const SporeDrops *drops, uint32_t x, uint32_t y, uint32_t z) {
+  uint32_t hash = x ^ y ^ z;
   return (hash ^ hash >> 15) & drops->mask;
 }
 
@@ -45,9 +51,9 @@ static void fill_cubes(SporeDrops *drops, const double *q, size_t count, double 
     int32_t cube[3];
     if (spore_particle_is_out(q + 3 * i)) continue;
     find_cube(q + 3 * i, side, cube);
-    uint32_t *first = &drops->first[slot_of(drops, cube)];
-    drops->next[i] = *first;
-    *first = (uint32_t)i;
+    uint32_t slot = slot_of(drops, share_of(cube[0], 0), share_of(cube[1], 1), share_of(cube[2], 2));
+    drops->next[i] = drops->first[slot];
+    drops->first[slot] = (uint32_t)i;
   }
 }
 
@@ -62,11 +68,19 @@ static void add_near(SporeDrops *drops, const double *q, uint32_t i, uint32_t j,
   }
 }
 
-/* Pairs of drops that are nearer than the side: of a cube, and of half of the cubes around it. */
+/* Of the cubes around a cube, as shares of -1, 0 and 1 along each axis, the half that comes after it. */
+static void add_beside(SporeDrops *drops, const double *q, uint32_t i, const int32_t *cube, double side) {
+  uint32_t shares[3][3];
+  for (int axis = 0; axis < 3; axis++)
+    for (int k = 0; k < 3; k++) shares[axis][k] = share_of(cube[axis] + k - 1, axis);
+  for (int k = 14; k < 27; k++) {
+    uint32_t first = drops->first[slot_of(drops, shares[0][k / 9], shares[1][k / 3 % 3], shares[2][k % 3])];
+    if (first != SPORE_NO_DROP) add_near(drops, q, i, first, side);
+  }
+}
+
+/* Pairs of drops that are nearer than the side. */
 static void find_near(SporeDrops *drops, const double *q, size_t count, double side) {
-  static const signed char after[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
-                                           {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
-                                           {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
   fill_cubes(drops, q, count, side);
   drops->pair_count = 0;
   for (uint32_t i = 0; i < count; i++) {
@@ -74,10 +88,7 @@ static void find_near(SporeDrops *drops, const double *q, size_t count, double s
     if (spore_particle_is_out(q + 3 * (size_t)i)) continue;
     find_cube(q + 3 * (size_t)i, side, cube);
     add_near(drops, q, i, drops->next[i], side);
-    for (int k = 0; k < 13; k++) {
-      const int32_t beside[3] = {cube[0] + after[k][0], cube[1] + after[k][1], cube[2] + after[k][2]};
-      add_near(drops, q, i, drops->first[slot_of(drops, beside)], side);
-    }
+    add_beside(drops, q, i, cube, side);
   }
 }
 
