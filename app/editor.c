@@ -4,16 +4,22 @@
 
 #include "app/catalogue.h"
 #include "app/ending.h"
+#include "ui/jobs/loop-gaps.h"
 #include "ui/spore-application.h"
 
-static gboolean show_version;
+static gboolean show_version, tell_gaps;
 static const GOptionEntry options[] = {
     {"version", 0, 0, G_OPTION_ARG_NONE, &show_version, N_("Say the version and end"), NULL},
+    {"tell-gaps", 0, 0, G_OPTION_ARG_NONE, &tell_gaps,
+     N_("Tell on stderr when the window did not answer for more than 100 ms, and what was going on"), NULL},
     {NULL},
 };
 
 static int handle_options(GApplication *application, GVariantDict *given, gpointer data) {
-  if (!show_version) return -1; /* go on */
+  if (!show_version) {
+    spore_gaps_watch(tell_gaps);
+    return -1; /* go on */
+  }
   g_print("spore-editor %s\n", SPORE_VERSION);
   return EXIT_SUCCESS;
 }

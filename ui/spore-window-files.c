@@ -7,6 +7,7 @@
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 #include "ui/jobs/works.h"
+#include "ui/jobs/loop-gaps.h"
 #include "ui/spore-window-private.h"
 
 /* The document of the window. */
@@ -43,9 +44,18 @@ static void scene_changed(SporeWindow *self) {
   history_changed(self);
 }
 
+/* What holds the window while a scene plays is told as such. */
+static void tell_playing(SporeWindow *self, gboolean playing) {
+  if (playing == self->gaps_play) return;
+  self->gaps_play = playing;
+  if (playing) spore_gaps_enter(_("Playing"));
+  else spore_gaps_leave(_("Playing"));
+}
+
 static void player_changed(SporeWindow *self) {
   spore_window_show_job(self);
   gboolean playing = spore_player_is_playing(self->player);
+  tell_playing(self, playing);
   const char *icon = playing ? "media-playback-pause-symbolic" : "media-playback-start-symbolic";
   gtk_image_set_from_icon_name(GTK_IMAGE(self->play_image), icon, GTK_ICON_SIZE_BUTTON);
   gtk_image_set_from_icon_name(GTK_IMAGE(self->large_play_image), icon, GTK_ICON_SIZE_BUTTON);
@@ -66,6 +76,7 @@ static void player_failed(SporeWindow *self, const char *message) { spore_window
 
 void spore_window_release_document(SporeWindow *self) {
   if (self->job) spore_job_cancel(self->job);
+  tell_playing(self, FALSE);
   if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
   if (self->player) {
     g_signal_handlers_disconnect_by_data(self->player, self);

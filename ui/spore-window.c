@@ -4,6 +4,7 @@
 #include "core/author/edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
+#include "ui/jobs/loop-gaps.h"
 #include "ui/spore-window-private.h"
 
 #define AUTOSAVE_S 60
@@ -84,9 +85,23 @@ static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, Sp
   offer_to_hold(self, diagnostics);
 }
 
-/* What the simulation had to mend. */
+/* What held the window for long, once for each thing that was going on, and again when that got much longer. */
+static void log_gaps(SporeWindow *self) {
+  guint count;
+  const SporeGap *gaps = spore_gaps_told(&count);
+  g_array_set_size(self->gaps_logged_ms, MAX(count, self->gaps_logged_ms->len));
+  for (guint i = 0; i < count; i++) {
+    double *logged_ms = &g_array_index(self->gaps_logged_ms, double, i);
+    if (gaps[i].longest_ms < 2 * *logged_ms) continue;
+    *logged_ms = gaps[i].longest_ms;
+    spore_window_log(self, _("The window stood still for %.0f ms (%s)"), gaps[i].longest_ms, gaps[i].what);
+  }
+}
+
+/* What the simulation had to mend, and what held the window. */
 static gboolean poll_monitor(gpointer data) {
   SporeWindow *self = data;
+  log_gaps(self);
   SporeSession *session = spore_player_get_session(self->player);
   if (!session) return G_SOURCE_CONTINUE;
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
@@ -142,6 +157,7 @@ static void spore_window_dispose(GObject *object) {
   g_clear_pointer(&self->leftover, spore_leftover_free);
   g_clear_pointer(&self->scenes, g_free);
   g_clear_pointer(&self->loose, g_array_unref);
+  g_clear_pointer(&self->gaps_logged_ms, g_array_unref);
   g_clear_object(&self->hands);
   G_OBJECT_CLASS(spore_window_parent_class)->dispose(object);
 }
@@ -215,6 +231,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
 
 static void spore_window_init(SporeWindow *self) {
   self->loose = g_array_new(FALSE, FALSE, sizeof(guint));
+  self->gaps_logged_ms = g_array_new(FALSE, TRUE, sizeof(double));
   self->fresh = TRUE;
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));

@@ -18,6 +18,7 @@
 #include "ui/document/hand-edit.h"
 #include "ui/document/hands.h"
 #include "ui/document/number-text.h"
+#include "ui/jobs/loop-gaps.h"
 #include "ui/document/labels.h"
 #include "ui/document/mapping-report.h"
 #include "core/author/mesh_edits.h"
@@ -811,6 +812,32 @@ static void test_angle_text(void) {
   }
 }
 
+/* What was going on while the main loop did not come round is told: the work whose result was taken in, and by the
+ * longest. */
+static gboolean hold_loop(gpointer title) {
+  gint64 start = g_get_monotonic_time();
+  spore_gaps_enter(title);
+  while (g_get_monotonic_time() - start <= 1000 * SPORE_GAP_TOLD_MS) continue;
+  spore_gaps_leave(title);
+  return G_SOURCE_REMOVE;
+}
+
+static void test_loop_gaps(void) {
+  guint count;
+  spore_gaps_enter("before it is watched");
+  spore_gaps_watch(FALSE);
+  g_idle_add(hold_loop, (gpointer) "held");
+  g_main_context_iteration(NULL, TRUE);
+  spore_gaps_told(&count);
+  g_assert_cmpuint(count, ==, 0); /* the turn ends with the next poll */
+  g_main_context_iteration(NULL, FALSE);
+  const SporeGap *gaps = spore_gaps_told(&count);
+  g_assert_cmpuint(count, ==, 1);
+  g_assert_cmpstr(gaps[0].what, ==, "held");
+  g_assert_cmpfloat(gaps[0].longest_ms, >, SPORE_GAP_TOLD_MS);
+  g_assert_cmpuint(gaps[0].count, ==, 1);
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -854,6 +881,7 @@ int main(int argc, char **argv) {
   }
   g_test_add_func("/author/number-text", test_number_text);
   g_test_add_func("/author/angle-text", test_angle_text);
+  g_test_add_func("/author/loop-gaps", test_loop_gaps);
   g_test_add_func("/author/length-text", test_length_text);
   int status = g_test_run();
   g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;

@@ -2,6 +2,7 @@
 #include "ui/jobs/spore-job.h"
 
 #include "core/scene/error.h"
+#include "ui/jobs/loop-gaps.h"
 
 #define PROGRESS_INTERVAL_MS 100
 
@@ -79,6 +80,7 @@ static void run(GTask *task, gpointer source, gpointer data, GCancellable *cance
 
 static void finish(SporeJob *self, gpointer data, const GError *error) {
   self->running = FALSE;
+  spore_gaps_leave(self->title);
   g_clear_handle_id(&self->timer, g_source_remove);
   self->done(self, data, error, self->owner);
   g_signal_emit(self, signals[FINISHED], 0);
@@ -114,6 +116,7 @@ SporeJob *spore_job_start(const char *title, SporeJobWork work, gpointer work_da
   self->done = done;
   self->owner = g_object_ref(owner);
   self->running = TRUE;
+  spore_gaps_enter(self->title);
   self->timer = g_timeout_add(PROGRESS_INTERVAL_MS, tick, self);
   g_autoptr(GTask) task = g_task_new(self, self->cancellable, ended, NULL);
   g_task_set_check_cancellable(task, FALSE);

@@ -4,6 +4,7 @@
 
 #include "core/scene/length_unit.h"
 #include "ui/document/labels.h"
+#include "ui/jobs/loop-gaps.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/spore-viewport-private.h"
 
@@ -181,6 +182,17 @@ static void append_pace(GString *text, double factor, double asked) {
   g_string_append(text, _("This machine does not keep up; the Accuracy tab finds cheaper settings"));
 }
 
+/* How long the window kept whoever works in it waiting, at most. */
+static void append_gaps(GString *text) {
+  guint count;
+  const SporeGap *gaps = spore_gaps_told(&count), *longest = gaps;
+  for (guint i = 1; i < count; i++)
+    if (gaps[i].longest_ms > longest->longest_ms) longest = &gaps[i];
+  if (count == 0) return;
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("The window stood still for %.0f ms (%s)"), longest->longest_ms, longest->what);
+}
+
 /* What an author wants to know, and a clinician does not. */
 static void append_figures(GString *text, const SporeSession *session, const SporeSnapshot *snapshot,
                            const SporeSessionFigures *figures) {
@@ -212,6 +224,7 @@ static void append_figures(GString *text, const SporeSession *session, const Spo
   append_solver(text, world, snapshot, figures);
   append_energy(text, snapshot, figures);
   append_levels(text, world, snapshot);
+  append_gaps(text);
 }
 
 /* What is all but closed is so. */
