@@ -97,6 +97,8 @@ static const struct {
     {"add-pin", BODIES},
     {"add-link", BODIES},
     {"add-fluid", BODIES},
+    {"gizmo", BODY},
+    {"align", BODY},
     {"tie-link", LINK},
     {"lead", HANDS},
     {"lead-next", HANDS},

@@ -144,6 +144,9 @@ void spore_window_end_pick(SporeWindow *self);
 /* The same, also of the places on the organ that a generator begins from. */
 void spore_window_stop_picking(SporeWindow *self);
 
+/* spore-window-placement.c: moving, turning and aligning. */
+void spore_window_add_placement_actions(SporeWindow *self);
+
 /* spore-window-links.c: links. */
 void spore_window_add_link_actions(SporeWindow *self);
 /* An entry for each kind of link that the schema has. */

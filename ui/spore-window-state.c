@@ -175,6 +175,20 @@ static const char *leading_hint(SporeWindow *self) {
              : _("Drag leads it, Shift+drag turns it; right button or C closes it, O lets go; N, P: another one");
 }
 
+/* What the gizmo does; NULL: there is none. */
+static const char *gizmo_hint(SporeWindow *self) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "gizmo");
+  const char *gizmo = g_variant_get_string(state, NULL);
+  if (!spore_window_is_at_start(self) || !spore_editor_document_selected_body(self->document)) return NULL;
+  if (g_str_equal(gizmo, "move"))
+    return _("Drag a handle to move what is selected: Ctrl by 1 mm, with Shift by 5 mm; X, Y, Z keep to an axis; "
+             "Escape takes it back; W ends");
+  if (g_str_equal(gizmo, "turn"))
+    return _("Drag a ring to turn what is selected: Ctrl by 15 degrees; X, Y, Z keep to an axis; Escape takes it back; "
+             "E ends");
+  return NULL;
+}
+
 static const char *hint_for(SporeWindow *self) {
   if (picking_hint(self)) return picking_hint(self);
   g_autoptr(GVariant) present = g_action_group_get_action_state(G_ACTION_GROUP(self), "present");
@@ -191,6 +205,7 @@ static const char *hint_for(SporeWindow *self) {
   if (edits)
     return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
   if (g_str_equal(g_variant_get_string(tool, NULL), "probe") && leading_hint(self)) return leading_hint(self);
+  if (gizmo_hint(self)) return gizmo_hint(self);
   if (spore_player_is_repeating(self->player))
     return _("An attempt is repeated; F5 pauses and goes on, Shift+F5 ends it and goes back to the start");
   if (spore_player_is_playing(self->player))

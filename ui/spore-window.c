@@ -247,6 +247,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_link_actions(self);
   spore_window_add_instrument_actions(self);
   spore_window_add_fluid_actions(self);
+  spore_window_add_placement_actions(self);
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);

@@ -15,7 +15,8 @@
  *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,
  *               add-region [s path of what holds it], place-region [s path] (in the view), remove-region [s path],
  *               add-link [s element], tie-link (the selected one), pick-back, pick-done,
- *               patient [s position; state, "": none]
+ *               patient [s position; state, "": none], gizmo [s "none", "move" or "turn"; state] (of what is selected),
+ *               align [s "x-least", "y-middle", "z-greatest" or the like] (the others with the first)
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
  *               automatic-places; apply-generated, cancel-job

@@ -2234,6 +2234,63 @@ def every_link_is_picked():
             ui.wait(lambda: not editor.row(f"left_{element}"), "the link to be undone")
 
 
+def red_end(editor):
+    """The end of the gizmo's x axis on the screen; None: it is not drawn."""
+    pixels, channels, stride, width, height = picture_of_view(editor, 0)
+    found = [(x, y) for y in range(0, height) for x in range(width)
+             if abs(pixels[y * stride + x * channels] - 242) < 4 and abs(pixels[y * stride + x * channels + 1] - 77) < 4
+             and abs(pixels[y * stride + x * channels + 2] - 77) < 4]
+    x, y, _, _ = editor.place(editor.find(".*", "^Viewport$"))
+    return (x + max(found)[0] - 4, y + max(found)[1]) if len(found) > 50 else None
+
+
+@check
+def moved_by_the_gizmo():
+    """W shows axes on what is selected: a drag of one moves the body along it alone, with Ctrl by whole millimetres, as one step; Escape takes a drag back; E turns; two bodies are aligned."""
+    with start(two_balls("gizmo", '<links><spring name="cord" body_a="left" point_a="-0.035 0.03 0" point_b="0 0.1 0"/></links>')) as editor:
+        left, right, above = on_balls(editor)
+        assert not editor.enabled("gizmo")
+        editor.act("select", "s", "bodies/left")
+        ui.wait(lambda: editor.enabled("gizmo"), "the body to be selected")
+        editor.focus()
+        editor.mouse("mousemove", *left, "click", 1)
+        editor.keys("w")
+        ui.wait(lambda: editor.state("gizmo") == "move", "W to begin")
+        end = ui.wait(lambda: red_end(editor), "the axis to be drawn")
+
+        def body():
+            root = xml.etree.ElementTree.fromstring(saved(editor, "gizmo"))
+            return vector(root.find("bodies/body[@name='left']").get("position")), vector(root.find("links/spring").get("point_a"))
+
+        editor.mouse("mousemove", *end, "mousedown", 1, "mousemove", end[0] + 30, end[1] - 9, "mousemove", end[0] + 60, end[1] - 20)
+        ui.wait(lambda: red_end(editor) and red_end(editor)[0] > end[0] + 30, "the drag to be seen")
+        editor.mouse("key", "Escape")
+        ui.wait(lambda: red_end(editor) == end, "Escape to take the drag back")
+        editor.mouse("mouseup", 1)
+        assert not editor.enabled("undo")
+        editor.mouse("mousemove", *end, "mousedown", 1, "keydown", "ctrl", "mousemove", end[0] + 20, end[1] - 9, "mousemove", end[0] + 40, end[1] - 20)
+        ui.wait(lambda: red_end(editor) and red_end(editor)[0] > end[0] + 20, "the drag to be seen")
+        keep_picture(editor, "gizmo-move")
+        editor.mouse("mouseup", 1, "keyup", "ctrl")
+        ui.wait(lambda: editor.enabled("undo"), "one step")
+        at, cord = body()
+        way = 1e3 * (at[0] + 0.035)
+        assert way > 1 and abs(way - round(way)) < 1e-6 and at[1:] == [0, 0], at
+        assert abs(cord[0] - at[0]) < 1e-9 and cord[1] == 0.03, cord
+        editor.act("undo")
+        ui.wait(lambda: not editor.enabled("undo"), "one step to undo")
+        editor.keys("e")
+        ui.wait(lambda: editor.state("gizmo") == "turn", "E to turn")
+        ui.wait(lambda: red_end(editor), "the rings")
+        keep_picture(editor, "gizmo-turn")
+        editor.act("gizmo", "s", "none")
+        ui.wait(lambda: not red_end(editor), "the gizmo to go")
+        editor.act("select-organs")
+        editor.act("align", "s", "x-middle")
+        ui.wait(lambda: editor.enabled("undo"), "them to be aligned")
+        assert 'name="right" position="-0.035 0 0"' in saved(editor, "gizmo")
+
+
 INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),
                "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "needle": ("Needle with thread", "needle"),
                "endoscope": ("Endoscope", "probe"), "endoscope_30": ("Endoscope, 30 degrees", "probe")}

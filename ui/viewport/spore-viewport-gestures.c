@@ -66,8 +66,10 @@ static void move_place(SporeViewport *self) {
 
 void spore_viewport_end_drag(SporeViewport *self) {
   gboolean edits = self->drag == DRAG_EDIT && self->document, places = self->drag == DRAG_PLACE && self->document;
+  gboolean gizmo = self->drag == DRAG_GIZMO && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
+  if (gizmo) spore_viewport_gizmo_release(self, TRUE);
   if (edits) spore_viewport_edit_release(self, TRUE);
   if (places) spore_viewport_places_release(self, TRUE);
 }
@@ -84,6 +86,10 @@ static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_PLACE) {
     self->drag = DRAG_NONE;
     spore_viewport_places_release(self, FALSE);
+  }
+  if (self->drag == DRAG_GIZMO) {
+    self->drag = DRAG_NONE;
+    spore_viewport_gizmo_release(self, FALSE);
   }
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
@@ -115,6 +121,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
     self->pressed_x = event->x, self->pressed_y = event->y;
     return;
   }
+  if (spore_viewport_gizmo_press(self, event->x, event->y)) return;
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && spore_viewport_hand_press(self)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
@@ -202,6 +209,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   case DRAG_PLACE:
     move_place(self);
     break;
+  case DRAG_GIZMO:
+    spore_viewport_gizmo_motion(self, event->state);
+    break;
   }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -233,11 +243,13 @@ static gboolean has_whole_screen(GtkWidget *area) {
 static const struct {
   guint key;
   const char *action; /* detailed */
+  gboolean presented; /* only while the view is shown alone */
 } keys[] = {
     {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},        {GDK_KEY_i, "win.isolate"},
     {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},       {GDK_KEY_0, "win.view::camera"},
     {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"}, {GDK_KEY_7, "win.view::top"},
-    {GDK_KEY_e, "win.show-guide"},        {GDK_KEY_x, "win.swap-views"},
+    {GDK_KEY_e, "win.show-guide", TRUE},  {GDK_KEY_x, "win.swap-views"},  {GDK_KEY_w, "win.gizmo::move"},
+    {GDK_KEY_e, "win.gizmo::turn"},
 };
 
 guint spore_viewport_key_of(const char *action) {
@@ -247,12 +259,14 @@ guint spore_viewport_key_of(const char *action) {
 }
 
 /* FALSE: not its key. Digits of the keypad do the same as the others. */
-static gboolean act_on(GtkWidget *area, guint key) {
+static gboolean act_on(GtkWidget *area, guint key, gboolean presented) {
   if (key >= GDK_KEY_KP_0 && key <= GDK_KEY_KP_9) key = GDK_KEY_0 + key - GDK_KEY_KP_0;
   for (gsize i = 0; i < G_N_ELEMENTS(keys); i++) {
     g_autofree char *action = NULL;
     g_autoptr(GVariant) target = NULL;
-    if (keys[i].key != key || !g_action_parse_detailed_name(keys[i].action, &action, &target, NULL)) continue;
+    if (keys[i].key != key || (keys[i].presented && !presented) ||
+        !g_action_parse_detailed_name(keys[i].action, &action, &target, NULL))
+      continue;
     spore_activate(area, action + strlen("win."), target);
     return TRUE;
   }
@@ -266,7 +280,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     return GDK_EVENT_STOP;
   }
   if (modifiers) return GDK_EVENT_PROPAGATE;
-  if (spore_viewport_edit_key(self, event->keyval) || spore_viewport_hand_key(self, event->keyval))
+  if (spore_viewport_gizmo_key(self, event->keyval) || spore_viewport_edit_key(self, event->keyval) ||
+      spore_viewport_hand_key(self, event->keyval))
     return GDK_EVENT_STOP;
   switch (event->keyval) {
   case GDK_KEY_Escape:
@@ -288,7 +303,7 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     spore_activate(area, "pick-done", NULL);
     break;
   default:
-    return act_on(area, event->keyval) ? GDK_EVENT_STOP : GDK_EVENT_PROPAGATE;
+    return act_on(area, event->keyval, self->presented) ? GDK_EVENT_STOP : GDK_EVENT_PROPAGATE;
   }
   return GDK_EVENT_STOP;
 }

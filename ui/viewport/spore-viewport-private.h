@@ -3,12 +3,13 @@
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 
 #include "core/author/instrument_edits.h"
+#include "core/author/placement.h"
 #include "ui/document/hand-edit.h"
 #include "ui/viewport/spore-viewport.h"
 
 typedef struct SporeViewportMeasures SporeViewportMeasures;
 
-typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE } SporeDrag;
+typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE, DRAG_GIZMO } SporeDrag;
 
 struct _SporeViewport {
   GtkOverlay parent;
@@ -35,6 +36,10 @@ struct _SporeViewport {
   gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
   double edit_before[4]; /* the chosen sphere or point when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
+  SporeGizmo gizmo;
+  int gizmo_axis;            /* of the drag: 0 to 2, or 3: free */
+  SporePlacement *placement; /* what the drag moves */
+  SporePose motion;          /* by which it has moved it */
   SporeViewportPlaces places;
   guint place_held; /* by the drag */
   SporeVec3 place_before;
@@ -138,6 +143,13 @@ gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FAL
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
 /* Moves the chosen region to a click on the surface of that body. FALSE: no region moves. */
 gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
+
+/* spore-viewport-gizmo.c: moving and turning what is selected. */
+void spore_viewport_gizmo_draw(SporeViewport *self, cairo_t *cr);
+gboolean spore_viewport_gizmo_press(SporeViewport *self, double x, double y); /* FALSE: no handle was there */
+void spore_viewport_gizmo_motion(SporeViewport *self, GdkModifierType modifiers);
+void spore_viewport_gizmo_release(SporeViewport *self, gboolean keep);
+gboolean spore_viewport_gizmo_key(SporeViewport *self, guint key); /* FALSE: not its key */
 
 /* spore-viewport-hiding.c: what is hidden, and the menu of the right button. */
 /* Opens the menu of the selected body, or of no body. */

@@ -133,6 +133,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   spore_viewport_hand_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
   spore_viewport_places_draw(self, cr);
+  spore_viewport_gizmo_draw(self, cr);
   spore_viewport_measures_draw(self, cr);
   return FALSE;
 }
@@ -202,7 +203,7 @@ static void player_changed(SporeViewport *self) {
 
 /* The world has been replaced, and with it the body that a drag holds. */
 static void player_replaced(SporeViewport *self) {
-  self->drag = DRAG_NONE;
+  if (self->drag == DRAG_PULL || self->drag == DRAG_PROBE) self->drag = DRAG_NONE;
   queue_rebuild(self);
 }
 
@@ -306,6 +307,12 @@ void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool) {
   self->regions = 0;
   spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
+}
+
+void spore_viewport_set_gizmo(SporeViewport *self, SporeGizmo gizmo) {
+  spore_viewport_end_drag(self);
+  self->gizmo = gizmo;
+  gtk_widget_queue_draw(self->area);
 }
 
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options) {

@@ -40,6 +40,9 @@ typedef struct SporeViewportPlaces {
 
 typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEWPORT_TOOL_EDIT } SporeViewportTool;
 
+/* Handles over the picture by which what is selected is moved or turned. */
+typedef enum { SPORE_GIZMO_NONE, SPORE_GIZMO_MOVE, SPORE_GIZMO_TURN } SporeGizmo;
+
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is being opened: the welcome is hidden. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
@@ -47,6 +50,8 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
  * drawn. */
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented);
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
+/* Shown with the Select tool, while the scene is at its start. */
+void spore_viewport_set_gizmo(SporeViewport *self, SporeGizmo gizmo);
 /* Uses the Edit tool on all regions of the object that holds this one, which is chosen first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 /* Leads the next instrument, round and round. */

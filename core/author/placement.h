@@ -1,0 +1,36 @@
+/* Moving bodies with all that is placed on them. No GTK. */
+#ifndef SPORE_AUTHOR_PLACEMENT_H
+#define SPORE_AUTHOR_PLACEMENT_H
+
+#include "core/math/quat.h"
+#include "core/scene/document.h"
+
+/* The box around what the body shows, else what physics moves, else what is felt, at time 0 in the scene, m. FALSE: it
+ * has none of these, and the box is the place of its frame. */
+gboolean spore_body_box(SporeDocument *document, SporeObject *body, double lower[3], double upper[3]);
+
+/* Bodies that move together, and where they and what is placed on them stand before; opaque. */
+typedef struct SporePlacement SporePlacement;
+
+/* Of these bodies (of SporeObject *), with the other bodies of their tools: jaws go with their shaft. Places and
+ * directions of tools and of a source go with its body; an end of a link goes with the body of that end; what a link
+ * has one of goes where all bodies go that the link ties. Valid until objects come or go. */
+SporePlacement *spore_placement_new(SporeDocument *document, const GPtrArray *bodies);
+void spore_placement_free(SporePlacement *placement);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporePlacement, spore_placement_free)
+/* The middle of the box around the bodies themselves, without their tools' others; in the scene, m. */
+SporeVec3 spore_placement_middle(const SporePlacement *placement);
+/* Puts everything to where that motion of the scene takes it from where it stood: p to R p + t. Motions do not add up,
+ * so that a drag may call this over and over. Of several commands: call it inside a group. FALSE with a GError: a place
+ * would be out of range. */
+gboolean spore_placement_move(SporePlacement *placement, SporePose motion, GError **error);
+
+/* Where the coordinate stands that bodies are aligned by: the least, the middle, the greatest of their boxes. */
+typedef enum SporeAlignment { SPORE_ALIGN_LEAST, SPORE_ALIGN_MIDDLE, SPORE_ALIGN_GREATEST } SporeAlignment;
+
+/* Moves the other bodies along an axis (0: x) until their boxes are aligned with that of the first one, as one undo
+ * step. FALSE with a GError: fewer than two bodies. */
+gboolean spore_edit_align(SporeDocument *document, const GPtrArray *bodies, int axis, SporeAlignment alignment,
+                          GError **error);
+
+#endif
