@@ -235,6 +235,11 @@ static void act_swap_views(GSimpleAction *action, GVariant *parameter, gpointer 
   spore_viewport_swap_views(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
 }
 
+static void change_second_view(GSimpleAction *action, GVariant *state, gpointer data) {
+  g_simple_action_set_state(action, state);
+  spore_viewport_set_second_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_boolean(state));
+}
+
 static void act_turn_optic(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
@@ -360,6 +365,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"frame", act_frame},
       {"view", act_view, "s"},
       {"swap-views", act_swap_views},
+      {"second-view", NULL, NULL, "false", change_second_view},
       {"turn-optic", act_turn_optic, "d"},
       {"cut", NULL, "s", "'none'", change_cut},
       {"cut-other-side", NULL, NULL, "false", change_cut_side},

@@ -103,6 +103,7 @@ static const struct {
     {"lead", HANDS},
     {"lead-next", HANDS},
     {"swap-views", CAMERA | BODIES},
+    {"second-view", CAMERA | BODIES},
     {"turn-optic", CAMERA},
     {"pick-back", PICKING},
     {"pick-done", DRAFT},

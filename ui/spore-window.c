@@ -236,6 +236,7 @@ static void spore_window_init(SporeWindow *self) {
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_viewport_set_messages(SPORE_VIEWPORT(self->viewport), self->messages);
+  spore_viewport_set_controls(SPORE_VIEWPORT(self->viewport), self->controls);
   spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
   spore_window_add_film_actions(self);

@@ -37,7 +37,7 @@
  *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
  *               show-inspector, show-problems, present (state), show-guide (state: the steps of the exercise while
  *               present is on), filter, measure [s "distance", "angle" or "volume"],
- *               swap-views (to the scene's camera and back),
+ *               swap-views (to the scene's camera and back), second-view (state: the other one, too),
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
  *   others      search (for any of these), open-menu, report [s message]; of the application:

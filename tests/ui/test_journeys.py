@@ -616,6 +616,14 @@ def beside(place):
     return sum(pixels) / len(pixels)
 
 
+def picture_of(editor, widget):
+    """Pixels of the screen where the widget is."""
+    import gi
+    gi.require_version("Gdk", "3.0")
+    from gi.repository import Gdk
+    return Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), *editor.place(widget)).get_pixels()
+
+
 def keep_picture(editor, name):
     """Keeps a picture of the screen in the folder that SPORE_PICTURES names, for who wants to look at it."""
     folder_ = os.environ.get("SPORE_PICTURES")
@@ -1930,8 +1938,10 @@ def dark_and_light_follow_the_system():
 
 @check
 def a_trainee_follows_the_exercise_on_the_whole_screen():
-    """the steps, the hint, time, score and errors stand over the whole screen while it plays, and go by a key; large buttons play, lead, change the view and leave; a scene without an exercise has no steps."""
+    """the steps, the hint, time, score and errors stand over the whole screen while it plays, and go by a key; large buttons play, lead, change the view, show both views and leave; a scene without an exercise has no steps."""
     path = exercise_scene("guided")
+    track = path.with_name("hand.track")
+    track.write_text("".join(track.read_text().splitlines(keepends=True)[:94]))  # it ends beside where it began
     camera = '<camera name="scope" position="0 0.03 0.2" target="0 0 0" field_of_view="0.8"/></tools>'
     path.write_text(path.read_text().replace("</tools>", camera).replace("</spore>", """<exercise task="Touch the ball and come back." time_limit="30">
 <touched name="touch" body="organ" hint="Go to the ball."/><reached name="back" tool="rod" point="-0.07 0 0" after="touch"/></exercise></spore>"""))
@@ -1945,13 +1955,19 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         editor.find("label", "^2. Reached, by rod, after touch$")
         controls = editor.find("panel|filler", "^Large controls$")
         large = {button.get_name(): button for button in editor.walk(controls) if button.get_role_name() == "push button"}
-        assert list(large) == ["To the start", "Play", "Instrument", "Camera", "Steps", "Leave"], list(large)
+        assert list(large) == ["To the start", "Play", "Instrument", "Camera", "Two views", "Steps", "Leave"], list(large)
         assert all(min(editor.place(button)[2:]) >= 44 for button in large.values()), "a finger finds them"
         editor.press(large["Instrument"])
         ui.wait(lambda: editor.state("tool") == "probe", "the instrument to be led")
-        through_camera = picture_of_view(editor)[0]
-        editor.press(large["Camera"])
-        ui.wait(lambda: picture_of_view(editor)[0] != through_camera, "the view from outside")
+        editor.press(large["Two views"])
+        second = editor.find("push button", "^Second view: From outside$")
+        editor.find("label", "^The mouse works in: scope$")
+        at_rest = picture_of(editor, second)
+        editor.press(second)
+        editor.find("label", "^The mouse works in the view from outside$")
+        editor.find("push button", "^Second view: scope$")
+        ui.wait(lambda: picture_of(editor, second) != at_rest, "the camera's picture")
+        at_rest = picture_of(editor, second)
         editor.act("step")
         editor.find("label", "^Under way, 0 of 2 steps$")
         editor.find("label", "^Go to the ball.$")
@@ -1960,10 +1976,15 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         editor.press(large["Play"])
         editor.find("push button", "^Pause$")
         editor.find("label", "^Done, passed, 2 of 2 steps$", 120)
+        editor.act("pause")
         editor.find("label", r"^\d+\.\d\d of 30 s$")
         editor.find("label", "^✓$")
         keep_picture(editor, "guided")
-        editor.act("pause")
+        ui.wait(lambda: picture_of(editor, second) != at_rest, "the second view to follow the run")
+        editor.press(large["Camera"])
+        editor.find("label", "^The mouse works in: scope$")
+        editor.press(large["Two views"])
+        ui.wait(lambda: not editor.look("push button", "^Second view: "), "the second view to go")
         editor.focus()
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
         editor.mouse("mousemove", x + 20, y + height - 150, "click", 1)
@@ -1972,6 +1993,13 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         assert not editor.state("show-guide")
         editor.act("show-guide")
         editor.find("panel|filler", "^Exercise so far$")
+        editor.act("second-view")
+        editor.find("push button", "^Second view: ")
+        editor.act("select", "s", "tools/scope")
+        editor.act("delete")
+        ui.wait(lambda: not editor.enabled("second-view") and not editor.look("push button", "^Second view: "), "no view without a camera")
+        editor.act("undo")
+        editor.find("push button", "^Second view: ")
         editor.act("open", "s", str(SCENES / "minimal.spore"))
         ui.wait(lambda: not editor.look("panel|filler", "^Exercise so far$"), "a scene without steps")
         assert editor.state("present") and not editor.enabled("show-guide")

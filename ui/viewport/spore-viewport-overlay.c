@@ -58,8 +58,9 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
 }
 
-/* A bar of the scale's colours with its ends, at the lower right, above messages. */
+/* A bar of the scale's colours with its ends, at the lower right, above messages and beside the second view. */
 static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
+  if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
   height -= gtk_widget_get_allocated_height(self->messages);
   const double bar = LEGEND_WIDTH, left = width - bar - LEGEND_MARGIN, top = height - LEGEND_HEIGHT;
   if (width < bar + 2 * LEGEND_MARGIN) return;

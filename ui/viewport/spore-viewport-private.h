@@ -11,11 +11,17 @@ typedef struct SporeViewportMeasures SporeViewportMeasures;
 
 typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE, DRAG_GIZMO } SporeDrag;
 
+/* The pixels of a view. */
+typedef struct SporeViewportPicture {
+  cairo_surface_t *pixels;
+  gboolean stale; /* the pixels are out of date */
+} SporeViewportPicture;
+
 struct _SporeViewport {
   GtkOverlay parent;
   GtkWidget *area, *foot, *messages, *hud, *tools, *tool_row, *select_tool, *lead_tool, *edit_tool, *look_row,
       *overlays, *measure_list, *welcome, *beginnings, *failure, *link_button, *instrument_button, *led_button,
-      *measure_button, *cut_slider, *notice;
+      *measure_button, *cut_slider, *notice, *foot_row, *second, *second_area, *second_name, *large_name;
 
   SporeEditorDocument *document;
   SporePlayer *player;
@@ -57,8 +63,8 @@ struct _SporeViewport {
   SporeRenderer *renderer;
   SporeStage *stage;
   char *renderer_name;
-  cairo_surface_t *pixels;
-  gboolean stale; /* the pixels are out of date */
+  SporeViewportPicture picture, second_picture;
+  gboolean second_on;
   guint rebuild, tick;
   gint64 hud_clock;
   guint64 shown_step;
@@ -114,6 +120,15 @@ void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr);
 /* Readable on any ground; x, y: its left upper corner, pixels. */
 void spore_viewport_draw_text(SporeViewport *self, cairo_t *cr, const char *text, double x, double y);
 gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y);
+
+/* spore-viewport-picture.c: what is drawn of the stage. */
+/* Draws the camera's picture where it is stale, and paints it over the area. There is a renderer. */
+void spore_viewport_paint(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera,
+                          GtkWidget *area, cairo_t *cr);
+/* Signal handler of the second view's drawing area. */
+gboolean spore_viewport_draw_second(GtkWidget *area, cairo_t *cr, SporeViewport *self);
+/* Its size follows that of the large picture. */
+void spore_viewport_size_second(SporeViewport *self);
 
 /* spore-viewport-places.c: places picked by hand. */
 gboolean spore_viewport_places_press(SporeViewport *self, double x, double y); /* FALSE: no handle was there */

@@ -1,4 +1,5 @@
 /* What the viewport looks at: the camera, the candidate, and the welcome of an empty scene. */
+#include <glib/gi18n.h>
 #include <math.h>
 
 #include "ui/viewport/spore-viewport-private.h"
@@ -10,9 +11,28 @@
 #define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
 #define REACH_PIXELS 11.0 /* distance from a handle within which a click meets it */
 
+/* What the views show, where both are shown. */
+static void name_views(SporeViewport *self) {
+  SporeCamera camera;
+  gboolean shown = self->second_on && spore_viewport_other_camera(self, 1, &camera);
+  gtk_widget_set_visible(self->second, shown);
+  gtk_widget_set_visible(self->large_name, shown);
+  if (!shown) return;
+  const char *scene = spore_object_name(spore_viewport_scene_camera(self));
+  g_autofree char *large = self->through ? g_strdup_printf(_("The mouse works in: %s"), scene)
+                                         : g_strdup(_("The mouse works in the view from outside"));
+  gtk_label_set_text(GTK_LABEL(self->large_name), large);
+  const char *small = self->through ? _("From outside") : scene;
+  g_autofree char *second = g_strdup_printf(_("Second view: %s"), small);
+  gtk_label_set_text(GTK_LABEL(self->second_name), small);
+  atk_object_set_name(gtk_widget_get_accessible(self->second), second);
+}
+
 void spore_viewport_redraw(SporeViewport *self) {
-  self->stale = TRUE;
+  self->picture.stale = self->second_picture.stale = TRUE;
   gtk_widget_queue_draw(self->area);
+  if (self->second_on || gtk_widget_get_visible(self->second)) name_views(self);
+  if (self->second_on) gtk_widget_queue_draw(self->second_area);
 }
 
 gboolean spore_viewport_has_anything(SporeViewport *self) {
@@ -71,6 +91,7 @@ static SporeCamera outside_camera(SporeViewport *self, double aspect) {
   if (self->has_outside) return self->outside;
   spore_stage_bounds(self->stage, lower, upper);
   spore_camera_frame(&camera, lower, upper, aspect);
+  self->outside = camera, self->has_outside = TRUE; /* it stays there, whatever moves */
   return camera;
 }
 

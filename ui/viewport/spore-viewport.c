@@ -94,40 +94,14 @@ static void ensure_stage(SporeViewport *self) {
   rebuild(self);
 }
 
-static void render(SporeViewport *self, int width, int height) {
-  if (!self->pixels || cairo_image_surface_get_width(self->pixels) != width ||
-      cairo_image_surface_get_height(self->pixels) != height) {
-    g_clear_pointer(&self->pixels, cairo_surface_destroy);
-    self->pixels = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-    self->stale = TRUE;
-  }
-  if (!self->stale) return;
-  SporeRenderOptions options = {width, height, .grid = !self->presented,
-                                .antialias = !spore_offscreen_is_software(self->offscreen),
-                                .clip = spore_viewport_clip(self)};
-  g_autoptr(GError) error = NULL;
-  gint64 start = g_get_monotonic_time();
-  cairo_surface_flush(self->pixels);
-  if (!spore_renderer_draw(self->renderer, &self->camera, &options, cairo_image_surface_get_data(self->pixels),
-                           (gsize)cairo_image_surface_get_stride(self->pixels), &error))
-    g_warning("%s", error->message);
-  cairo_surface_mark_dirty(self->pixels);
-  self->draw_ms = (double)(g_get_monotonic_time() - start) / 1000;
-  self->stale = FALSE;
-}
-
 static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   int width = gtk_widget_get_allocated_width(area), height = gtk_widget_get_allocated_height(area);
-  int scale = gtk_widget_get_scale_factor(area);
   ensure_stage(self);
   if (!self->renderer) return FALSE;
-  render(self, width * scale, height * scale);
-  cairo_save(cr);
-  cairo_scale(cr, 1.0 / scale, 1.0 / scale);
-  cairo_set_source_surface(cr, self->pixels, 0, 0);
-  cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
-  cairo_paint(cr);
-  cairo_restore(cr);
+  gboolean stale = self->picture.stale;
+  gint64 start = g_get_monotonic_time();
+  spore_viewport_paint(self, &self->picture, &self->camera, area, cr);
+  if (stale) self->draw_ms = (double)(g_get_monotonic_time() - start) / 1000;
   spore_viewport_overlay_draw(self, cr, width, height);
   spore_viewport_links_draw(self, cr);
   spore_viewport_hand_draw(self, cr);
@@ -166,14 +140,16 @@ static gboolean place_overlays(gpointer data) {
     top += height + gtk_box_get_spacing(GTK_BOX(self->tools));
   }
   gtk_widget_set_margin_top(self->overlays, top);
+  spore_viewport_size_second(self);
   spore_box_fit(GTK_BOX(self->beginnings), gtk_widget_get_allocated_width(self->area) - WELCOME_PADDING);
   return G_SOURCE_REMOVE;
 }
 
 static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) {
   spore_viewport_follow_camera(self);
-  self->stale = TRUE;
-  g_idle_add(place_overlays, g_object_ref(self));
+  self->picture.stale = TRUE;
+  g_idle_add_full(G_PRIORITY_HIGH_IDLE, place_overlays, g_object_ref(self),
+                  NULL); /* before drawing, which may fill time */
 }
 
 /* Following the simulation. */
@@ -349,7 +325,8 @@ static void spore_viewport_dispose(GObject *object) {
   release_document(self);
   g_clear_pointer(&self->renderer, spore_renderer_free);
   g_clear_pointer(&self->offscreen, spore_offscreen_free);
-  g_clear_pointer(&self->pixels, cairo_surface_destroy);
+  g_clear_pointer(&self->picture.pixels, cairo_surface_destroy);
+  g_clear_pointer(&self->second_picture.pixels, cairo_surface_destroy);
   g_clear_pointer(&self->renderer_name, g_free);
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
@@ -395,7 +372,13 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, cut_slider);
   gtk_widget_class_bind_template_child(widget, SporeViewport, notice);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, foot_row);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, second);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, second_area);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, second_name);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, large_name);
   gtk_widget_class_bind_template_callback(widget, draw_area);
+  gtk_widget_class_bind_template_callback(widget, spore_viewport_draw_second);
   gtk_widget_class_bind_template_callback(widget, size_changed);
   gtk_widget_class_bind_template_callback(widget, spore_viewport_cut_moved);
   gtk_widget_class_bind_template_callback(widget, tool_clicked);
@@ -410,6 +393,10 @@ void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages) {
   self->messages = messages;
   gtk_box_pack_end(GTK_BOX(self->foot), messages, FALSE, FALSE, 0);
   g_signal_connect_object(messages, "size-allocate", G_CALLBACK(gtk_widget_queue_draw), self->area, G_CONNECT_SWAPPED);
+}
+
+void spore_viewport_set_controls(SporeViewport *self, GtkWidget *controls) {
+  gtk_box_set_center_widget(GTK_BOX(self->foot_row), controls);
 }
 
 static void spore_viewport_init(SporeViewport *self) {

@@ -3,12 +3,13 @@
  * Left selects bodies and links, Ctrl+left pulls tissue, left beside the bodies and middle orbit, with Shift they pan,
  * the wheel zooms to the cursor, right opens a menu; M measures a distance; H hides the selected body, I shows it
  * alone, A shows all; E shows or hides the steps of the exercise; F frames, 1, 3, 7 look along the axes, 0 through the
- * scene's camera and with it, X there and back, Escape takes a drag back. With the Lead tool, left moves the instrument
- * and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws and presses its
- * pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose the instrument,
- * arrows and Page Up and Down move it, C closes it, O opens it. With the Edit tool, left picks and moves spheres and
- * points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on,
- * Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
+ * scene's camera and with it, X there and back, V shows both, Escape takes a drag back. With the Lead tool, left moves
+ * the instrument and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws
+ * and presses its pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose
+ * the instrument, arrows and Page Up and Down move it, C closes it, O opens it. With the Edit tool, left picks and
+ * moves spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N
+ * and P go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the
+ * chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m; body 0: beside
@@ -49,6 +50,8 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
 /* The view is shown alone, to others than its author: it says what it is not for, and what is for an author is not
  * drawn. */
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented);
+/* Puts the large controls in the middle of the view's foot; takes them. */
+void spore_viewport_set_controls(SporeViewport *self, GtkWidget *controls);
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
 /* Shown with the Select tool, while the scene is at its start. */
 void spore_viewport_set_gizmo(SporeViewport *self, SporeGizmo gizmo);
@@ -113,6 +116,8 @@ void spore_viewport_frame_soon(SporeViewport *self);
 /* "front", "right", "top", or "camera": through spore_viewport_scene_camera, following it; without a camera, the whole
  * scene. */
 void spore_viewport_view(SporeViewport *self, const char *view);
+/* Draws the other view, too, small in a corner: what spore_viewport_swap_views would show large. */
+void spore_viewport_set_second_view(SporeViewport *self, gboolean on);
 /* From the outside to the scene's camera, which is followed, and back to where the view was. */
 void spore_viewport_swap_views(SporeViewport *self);
 /* The camera of the scene that is selected, else the one that the view looks through, else the first; NULL: there is
