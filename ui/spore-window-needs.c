@@ -99,6 +99,7 @@ static const struct {
     {"add-fluid", BODIES},
     {"gizmo", BODY},
     {"align", BODY},
+    {"mirror", BODY},
     {"tie-link", LINK},
     {"lead", HANDS},
     {"lead-next", HANDS},

@@ -1,4 +1,5 @@
 /* Moving, turning and aligning what is selected. */
+#include "core/author/mirror_edits.h"
 #include "core/author/placement.h"
 #include "ui/spore-window-private.h"
 
@@ -32,7 +33,26 @@ static void act_align(GSimpleAction *action, GVariant *parameter, gpointer data)
       spore_window_failed(self, error);
 }
 
+/* AXIS-PLANE: through the middle of the body itself, or of the scene */
+static void act_mirror(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const char *text = g_variant_get_string(parameter, NULL);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *body = spore_editor_document_selected_body(self->document);
+  g_autoptr(GError) error = NULL;
+  if (text[0] < 'x' || text[0] > 'z' || text[1] != '-' || !body || !spore_window_may_edit(self)) return;
+  int axis = text[0] - 'x';
+  double lower[3], upper[3];
+  spore_body_box(document, body, lower, upper);
+  gboolean own = g_str_equal(text + 2, "own");
+  double at = own ? 0.5 * (lower[axis] + upper[axis]) : spore_scene_middle(document, axis);
+  SporeObject *copy = spore_edit_mirror(document, body, axis, at, &error);
+  if (copy) spore_editor_document_select(self->document, spore_object_id(copy));
+  else spore_window_failed(self, error);
+}
+
 void spore_window_add_placement_actions(SporeWindow *self) {
-  static const GActionEntry actions[] = {{"gizmo", NULL, "s", "'none'", change_gizmo}, {"align", act_align, "s"}};
+  static const GActionEntry actions[] = {
+      {"gizmo", NULL, "s", "'none'", change_gizmo}, {"align", act_align, "s"}, {"mirror", act_mirror, "s"}};
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

@@ -7,6 +7,7 @@
 #include "core/author/edits.h"
 #include "core/author/fluid_edits.h"
 #include "core/author/instrument_edits.h"
+#include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
@@ -15,7 +16,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, **fluid, **instrument, *patient, *output;
+  char **add, **soft, **set, **hold, **fluid, **mirror, **instrument, *patient, *output;
   gboolean probe;
 } Request;
 
@@ -155,6 +156,29 @@ static gboolean add_fluids(SporeDocument *document, char **texts, GPtrArray *cha
   return TRUE;
 }
 
+/* BODY=AXIS, in the middle of the scene */
+static SporeObject *mirror(SporeDocument *document, const char *text, GError **error) {
+  const char *equals = strrchr(text, '=');
+  g_autofree char *name = equals ? g_strndup(text, (gsize)(equals - text)) : NULL;
+  if (!equals || equals[1] < 'x' || equals[1] > 'z' || equals[2]) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                      _("this is no body and an axis; expected BODY=x, BODY=y or BODY=z, such as ovary_left=x"));
+    return NULL;
+  }
+  SporeObject *body = spore_cli_find_body(document, "--mirror", name, error);
+  int axis = equals[1] - 'x';
+  return body ? spore_edit_mirror(document, body, axis, spore_scene_middle(document, axis), error) : NULL;
+}
+
+static gboolean mirror_all(SporeDocument *document, char **texts, GPtrArray *changed, GError **error) {
+  for (; texts && *texts; texts++) {
+    SporeObject *copy = mirror(document, *texts, error);
+    if (!copy) return FALSE;
+    note(changed, copy);
+  }
+  return TRUE;
+}
+
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->add; path && *path; path++) {
@@ -177,6 +201,7 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     if (!added) return FALSE;
     note(changed, added);
   }
+  if (!mirror_all(document, request->mirror, changed, error)) return FALSE;
   if (!add_fluids(document, request->fluid, changed, error)) return FALSE;
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
@@ -249,6 +274,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
           "endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
+      {"mirror", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.mirror,
+       N_("Add a mirrored copy of an organ, across that axis in the middle of the scene, with what ties it to the "
+          "scene: "
+          "BODY=x, BODY=y, BODY=z (may be repeated)"),
+       "BODY=AXIS"},
       {"fluid", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.fluid,
        N_("Add a fluid at a place of an organ, m, after its instruments: KIND@X,Y,Z or KIND:NAME@X,Y,Z; bleeding, "
           "wound (bleeds from a "
@@ -263,10 +293,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
-                 request.fluid || request.probe;
+                 request.fluid || request.mirror || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
-                               "--instrument, --fluid or --probe; give one of them"));
+                               "--instrument, --mirror, --fluid or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
@@ -274,6 +304,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.set);
   g_strfreev(request.hold);
   g_strfreev(request.fluid);
+  g_strfreev(request.mirror);
   g_strfreev(request.instrument);
   g_free(request.patient);
   g_free(request.output);

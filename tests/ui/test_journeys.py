@@ -2274,7 +2274,7 @@ def red_end(editor):
 
 @check
 def moved_by_the_gizmo():
-    """W shows axes on what is selected: a drag of one moves the body along it alone, with Ctrl by whole millimetres, as one step; Escape takes a drag back; E turns; two bodies are aligned."""
+    """W shows axes on what is selected: a drag of one moves the body along it alone, with Ctrl by whole millimetres, as one step; Escape takes a drag back; E turns; two bodies are aligned, and one is mirrored."""
     with start(two_balls("gizmo", '<links><spring name="cord" body_a="left" point_a="-0.035 0.03 0" point_b="0 0.1 0"/></links>')) as editor:
         left, right, above = on_balls(editor)
         assert not editor.enabled("gizmo")
@@ -2317,6 +2317,14 @@ def moved_by_the_gizmo():
         editor.act("align", "s", "x-middle")
         ui.wait(lambda: editor.enabled("undo"), "them to be aligned")
         assert 'name="right" position="-0.035 0 0"' in saved(editor, "gizmo")
+        editor.act("undo")
+        editor.act("select", "s", "bodies/left")
+        editor.act("mirror", "s", "x-scene")
+        ui.wait(lambda: editor.row("right-2"), "the mirrored copy")
+        keep_picture(editor, "mirror")
+        root = xml.etree.ElementTree.fromstring(saved(editor, "gizmo"))
+        assert vector(root.find("bodies/body[@name='right-2']").get("position")) == [0.035, 0, 0]
+        assert len(root.findall("links/spring")) == 2, "the cord is mirrored, too"
 
 
 INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),

@@ -1,0 +1,272 @@
+/* Mirrors bodies. Where a point p of the body's frame is at R p + t, its image is at (M R M)(M p) + M t, with M the
+ * mirror: so the copy's assets are mirrored in the body's frame, and its frame turns the other way. */
+#include "core/author/mirror_edits.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/author/edits.h"
+#include "core/author/placement.h"
+#include "core/io/mesh_import.h"
+#include "core/scene/compile.h"
+
+typedef struct Mirror {
+  SporeDocument *document;
+  SporeObject *body, *copy;
+  int axis;
+  double at;
+} Mirror;
+
+/* Values. */
+
+static SporeVec3 flipped(const Mirror *mirror, SporeVec3 v) {
+  double component[3];
+  spore_vec3_store(component, v);
+  component[mirror->axis] = -component[mirror->axis];
+  return spore_vec3_load(component);
+}
+
+/* Of what has a sense of turning. */
+static SporeVec3 flipped_turn(const Mirror *mirror, SporeVec3 v) { return spore_vec3_scale(-1, flipped(mirror, v)); }
+
+static SporeVec3 image(const Mirror *mirror, SporeVec3 place) {
+  double component[3];
+  spore_vec3_store(component, place);
+  component[mirror->axis] = 2 * mirror->at - component[mirror->axis];
+  return spore_vec3_load(component);
+}
+
+/* Assets. */
+
+static void flip_points(const Mirror *mirror, double *points, gsize count, gsize stride) {
+  for (gsize i = 0; i < count; i++) points[stride * i + (gsize)mirror->axis] *= -1;
+}
+
+/* Mirrored elements would be inside out. */
+static void swap_corners(guint32 *elements, gsize count, gsize corners) {
+  for (gsize i = 0; i < count; i++) {
+    guint32 kept = elements[corners * i];
+    elements[corners * i] = elements[corners * i + 1];
+    elements[corners * i + 1] = kept;
+  }
+}
+
+static char *mirrored_surface(const Mirror *mirror, const SporeTriangleMesh *from, gsize *size) {
+  SporeTriangleMesh mesh = *from;
+  g_autofree double *vertices = g_memdup2(from->vertices, 3 * from->vertex_count * sizeof *vertices);
+  g_autofree guint32 *triangles = g_memdup2(from->triangles, 3 * from->triangle_count * sizeof *triangles);
+  flip_points(mirror, vertices, from->vertex_count, 3);
+  swap_corners(triangles, from->triangle_count, 3);
+  mesh.vertices = vertices;
+  mesh.triangles = triangles;
+  return spore_off_format(&mesh, size);
+}
+
+static char *mirrored_solid(const Mirror *mirror, const SporeTetrahedralMesh *from, gsize *size) {
+  SporeTetrahedralMesh mesh = *from;
+  g_autofree double *vertices = g_memdup2(from->vertices, 3 * from->vertex_count * sizeof *vertices);
+  g_autofree guint32 *cells = g_memdup2(from->tetrahedra, 4 * from->tetrahedron_count * sizeof *cells);
+  flip_points(mirror, vertices, from->vertex_count, 3);
+  swap_corners(cells, from->tetrahedron_count, 4);
+  mesh.vertices = vertices;
+  mesh.tetrahedra = cells;
+  return spore_medit_format(&mesh, size);
+}
+
+static char *mirrored_spheres(const Mirror *mirror, const SporeSphereSet *from, gsize *size) {
+  SporeSphereSet set = *from;
+  g_autofree double *spheres = g_memdup2(from->spheres, 4 * from->count * sizeof *spheres);
+  flip_points(mirror, spheres, from->count, 4);
+  set.spheres = spheres;
+  return spore_spheres_format(&set, size);
+}
+
+static char *mirrored_curve(const Mirror *mirror, const SporeCurve *from, gsize *size) {
+  SporeCurve curve = *from;
+  g_autofree double *points = g_memdup2(from->points, 4 * from->count * sizeof *points);
+  flip_points(mirror, points, from->count, 4);
+  curve.points = points;
+  return spore_curve_format(&curve, size);
+}
+
+/* The text of the mirrored asset. NULL with an error: it cannot be read. g_free. */
+static char *mirrored_text(const Mirror *mirror, SporeObject *asset, const char **extension, gsize *size,
+                           GError **error) {
+  const char *element = spore_object_type(asset)->element;
+  *extension = element;
+  if (g_str_equal(element, "mesh")) {
+    const SporeTriangleMesh *mesh = spore_document_mesh(mirror->document, asset, error);
+    *extension = "off";
+    return mesh ? mirrored_surface(mirror, mesh, size) : NULL;
+  }
+  if (g_str_equal(element, "tetrahedra")) {
+    const SporeTetrahedralMesh *mesh = spore_document_tetrahedra(mirror->document, asset, error);
+    *extension = "mesh";
+    return mesh ? mirrored_solid(mirror, mesh, size) : NULL;
+  }
+  if (g_str_equal(element, "spheres")) {
+    const SporeSphereSet *set = spore_document_spheres(mirror->document, asset, error);
+    return set ? mirrored_spheres(mirror, set, size) : NULL;
+  }
+  const SporeCurve *curve = spore_document_curve(mirror->document, asset, error);
+  return curve ? mirrored_curve(mirror, curve, size) : NULL;
+}
+
+/* "left" becomes "right", and the other way round; else what is added says it. g_free. */
+static char *name_of_image(const char *name) {
+  static const char *const sides[][2] = {{"left", "right"}, {"right", "left"}};
+  for (gsize i = 0; i < G_N_ELEMENTS(sides); i++) {
+    const char *found = strstr(name, sides[i][0]);
+    if (found) return g_strdup_printf("%.*s%s%s", (int)(found - name), name, sides[i][1], found + strlen(sides[i][0]));
+  }
+  return g_strdup_printf("%s_mirrored", name);
+}
+
+static SporeObject *mirror_asset(const Mirror *mirror, SporeObject *asset, GError **error) {
+  gsize size;
+  const char *extension;
+  char *text = mirrored_text(mirror, asset, &extension, &size, error);
+  g_autofree char *name = name_of_image(spore_object_name(asset));
+  return text ? spore_edit_put_asset(mirror->document, spore_object_type(asset)->element, name, extension, text, size,
+                                     error)
+              : NULL;
+}
+
+/* Objects. */
+
+/* Places of the body's own frame; lengths along the axes are vectors, too, but have no sign. */
+static gboolean is_place(const SporeParameter *parameter) {
+  return parameter->type == SPORE_VECTOR && g_strcmp0(parameter->unit, "m") == 0 && parameter->minimum < 0;
+}
+
+static gboolean copy_value(const Mirror *mirror, const SporeObject *from, SporeObject *to, guint property,
+                           GError **error) {
+  const SporeParameter *parameter = &spore_object_type(from)->table->parameters[property];
+  SporeValue value = *spore_object_value(from, property);
+  SporeObject *named = parameter->type == SPORE_REFERENCE ? spore_object_reference(from, parameter->name) : NULL;
+  if (parameter->type == SPORE_NAME || !spore_object_is_set(from, property)) return TRUE;
+  if (named && g_str_equal(spore_object_type(spore_object_parent(named))->element, "assets")) {
+    SporeObject *asset = mirror_asset(mirror, named, error);
+    return asset && spore_document_set_text(mirror->document, to, parameter->name, spore_object_name(asset), error);
+  }
+  if (is_place(parameter)) spore_vec3_store(value.number, flipped(mirror, spore_vec3_load(value.number)));
+  return spore_document_set(mirror->document, to, property, &value, error);
+}
+
+static gboolean copy_values(const Mirror *mirror, const SporeObject *from, SporeObject *to, GError **error) {
+  for (guint i = 0; i < spore_object_type(from)->table->count; i++)
+    if (!copy_value(mirror, from, to, i, error)) return FALSE;
+  return TRUE;
+}
+
+static gboolean copy_children(const Mirror *mirror, const SporeObject *from, SporeObject *to, GError **error) {
+  for (guint i = 0; i < spore_object_child_count(from); i++) {
+    const SporeObject *child = spore_object_child(from, i);
+    SporeObject *made = spore_document_insert(mirror->document, to, spore_object_type(child)->element,
+                                              spore_object_name(child), G_MAXUINT, error);
+    if (!made || !copy_values(mirror, child, made, error) || !copy_children(mirror, child, made, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+static SporeVec3 vector_of(const SporeObject *object, const char *property) {
+  int index = spore_parameter_find(spore_object_type(object)->table, property);
+  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
+}
+
+static gboolean set_vector(const Mirror *mirror, SporeObject *object, const char *property, SporeVec3 v,
+                           GError **error) {
+  SporeValue value = {.type = SPORE_VECTOR};
+  spore_vec3_store(value.number, v);
+  int index = spore_parameter_find(spore_object_type(object)->table, property);
+  return spore_vec3_distance(vector_of(object, property), v) == 0 ||
+         spore_document_set(mirror->document, object, (guint)index, &value, error);
+}
+
+static gboolean place_copy(const Mirror *mirror, GError **error) {
+  const SporeObject *body = mirror->body;
+  return set_vector(mirror, mirror->copy, "position", image(mirror, vector_of(body, "position")), error) &&
+         set_vector(mirror, mirror->copy, "rotation", flipped_turn(mirror, vector_of(body, "rotation")), error) &&
+         set_vector(mirror, mirror->copy, "velocity", flipped(mirror, vector_of(body, "velocity")), error) &&
+         set_vector(mirror, mirror->copy, "spin", flipped_turn(mirror, vector_of(body, "spin")), error);
+}
+
+/* Links. */
+
+static gboolean names_a_body(const SporeParameter *parameter) {
+  return parameter->type == SPORE_REFERENCE && g_str_equal(parameter->references, "body");
+}
+
+/* Whether the link ties the body, and nothing but the scene to it. */
+static gboolean is_own_link(const Mirror *mirror, const SporeObject *link) {
+  const SporeParameterTable *table = spore_object_type(link)->table;
+  gboolean own = FALSE;
+  for (gsize i = 0; i < table->count; i++) {
+    SporeObject *named =
+        names_a_body(&table->parameters[i]) ? spore_object_reference(link, table->parameters[i].name) : NULL;
+    if (named && named != mirror->body) return FALSE;
+    own = own || named;
+  }
+  return own;
+}
+
+static gboolean copy_link(const Mirror *mirror, const SporeObject *link, GError **error) {
+  const SporeObjectType *type = spore_object_type(link);
+  g_autofree char *name = name_of_image(spore_object_name(link));
+  SporeObject *copy =
+      spore_document_insert(mirror->document, spore_object_parent(link), type->element, name, G_MAXUINT, error);
+  for (guint i = 0; copy && i < type->table->count; i++) {
+    const SporeParameter *parameter = &type->table->parameters[i];
+    SporeValue value = *spore_object_value(link, i);
+    gboolean done;
+    if (parameter->type == SPORE_NAME || !spore_object_is_set(link, i)) continue;
+    if (names_a_body(parameter)) value.text = (char *)spore_object_name(mirror->copy);
+    if (parameter->type == SPORE_VECTOR) {
+      SporeVec3 v = spore_vec3_load(value.number);
+      spore_vec3_store(value.number, is_place(parameter) ? image(mirror, v) : flipped(mirror, v));
+    }
+    done = spore_document_set(mirror->document, copy, i, &value, error);
+    if (!done) return FALSE;
+  }
+  return copy != NULL;
+}
+
+static gboolean copy_links(const Mirror *mirror, GError **error) {
+  const SporeObject *links = spore_document_section(mirror->document, "links");
+  guint count = spore_object_child_count(links); /* without the copies */
+  for (guint i = 0; i < count; i++)
+    if (is_own_link(mirror, spore_object_child(links, i)) && !copy_link(mirror, spore_object_child(links, i), error))
+      return FALSE;
+  return TRUE;
+}
+
+SporeObject *spore_edit_mirror(SporeDocument *document, SporeObject *body, int axis, double at, GError **error) {
+  Mirror mirror = {.document = document, .body = body, .axis = axis, .at = at};
+  if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(body), "%s",
+                      _("an instrument is not mirrored; add another one from the library"));
+    return NULL;
+  }
+  g_autofree char *name = name_of_image(spore_object_name(body));
+  spore_document_begin(document, _("Mirror"));
+  mirror.copy = spore_document_insert(document, spore_object_parent(body), "body", name, G_MAXUINT, error);
+  gboolean done = mirror.copy && copy_values(&mirror, body, mirror.copy, error) &&
+                  copy_children(&mirror, body, mirror.copy, error) && place_copy(&mirror, error) &&
+                  copy_links(&mirror, error);
+  return spore_edit_finish(document, done) ? mirror.copy : NULL;
+}
+
+double spore_scene_middle(SporeDocument *document, int axis) {
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    double lower[3], upper[3];
+    if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) continue;
+    if (!spore_body_box(document, body, lower, upper)) continue;
+    least = fmin(least, lower[axis]);
+    most = fmax(most, upper[axis]);
+  }
+  return least <= most ? 0.5 * (least + most) : 0;
+}
