@@ -359,15 +359,16 @@ def a_wound_bleeds_from_the_cut_until_it_is_coagulated():
         found = []
         for text in bleeding, burnt:
             (SCENES / "cut-ovary.spore").write_text(text)
-            found.append([run_shipped("cut-ovary", parts, count) for count in (150, 225)])
+            found.append([run_shipped("cut-ovary", parts, count, effect=effect) for count, effect in ((150, ""), (225, ""), (225, "blood"))])
         (SCENES / "cut-ovary.spore").write_text(nowhere)
         refused = spore("run", SCENES / "cut-ovary.spore", "-n", 1, status=2).stderr
     finally:
         (SCENES / "cut-ovary.spore").write_text(shipped)
     assert "the mouth is in nothing that can be cut" in refused, refused
     lost = [[metrics(exercise)["lost"]["value"] for exercise in runs] for runs in found]
-    assert all(steps(runs[1])["cut"]["phase"] == "done" for runs in found), found
+    assert all(steps(run)["cut"]["phase"] == "done" for runs in found for run in runs[1:]), found
     assert lost[0][0] == 0 and lost[0][1] > 0 and lost[1][1] < 0.5 * lost[0][1], lost
+    assert all(abs(runs[2] - runs[1]) <= 0.1 * lost[0][1] for runs in lost), lost
 
 
 @check

@@ -164,7 +164,7 @@ static double next_random(uint64_t *state) {
 
 static bool is_free(const SporeWorld *world, const SporeBody *body, SporeVec3 at) {
   const double *q = world->state.next_q + body->q_offset;
-  if (dissolves(body) || body->effect.on) return true; /* smoke may overlap, and drops make room */
+  if (dissolves(body)) return true; /* smoke may overlap */
   for (size_t i = 0; i < body->block_count; i++)
     if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < NEAREST * spacing(body)) return false;
   return true;
