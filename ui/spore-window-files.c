@@ -202,6 +202,7 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
     spore_editor_document_set_recovered(self->document, work->original);
     spore_recovery_adopt(self->recovery, folder);
   }
+  if (work->untitled) spore_editor_document_set_untitled(self->document);
   self->fresh = FALSE;
   spore_window_update_actions(self);
   g_signal_emit_by_name(self->document, "history-changed");
@@ -218,6 +219,13 @@ static void start_open(SporeWindow *self, SporeOpenWork *work) {
 void spore_window_open(SporeWindow *self, const char *file) {
   if (!spore_window_may_leave(self)) return;
   start_open(self, spore_open_work_new(self->schema, file));
+}
+
+void spore_window_open_copy(SporeWindow *self, const char *file) {
+  if (!spore_window_may_leave(self)) return;
+  SporeOpenWork *work = spore_open_work_new(self->schema, file);
+  work->untitled = TRUE;
+  start_open(self, work);
 }
 
 void spore_window_recover(SporeWindow *self) {

@@ -78,7 +78,7 @@ struct _SporeWindow {
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
-  GMenu *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
+  GMenu *templates, *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
       *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
@@ -182,12 +182,19 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document);
 void spore_window_release_document(SporeWindow *self);
 /* Asks about unsaved changes; TRUE: go on. */
 gboolean spore_window_may_leave(SporeWindow *self);
+/* Opens a scene that ships, as one that has no file yet. */
+void spore_window_open_copy(SporeWindow *self, const char *file);
 /* Opens what a dead owner left. */
 void spore_window_recover(SporeWindow *self);
 /* Asks for the name of a file to write. title, kind: translated; extension: added where it is missing; proposed: the
  * name to begin with. g_free; NULL: the user went back. */
 char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,
                                   const char *proposed);
+
+/* spore-window-templates.c: scenes to begin with. */
+void spore_window_add_template_actions(SporeWindow *self);
+/* An entry for each. */
+void spore_window_fill_template_menu(SporeWindow *self);
 
 /* spore-window-film.c: pictures of the view, and films of runs. */
 void spore_window_add_film_actions(SporeWindow *self);

@@ -201,6 +201,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
   gtk_widget_class_bind_template_child(widget, SporeWindow, menu);
   gtk_widget_class_bind_template_child(widget, SporeWindow, speeds);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, templates);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, instrument_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, fluid_kinds);
@@ -239,6 +240,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_viewport_set_controls(SPORE_VIEWPORT(self->viewport), self->controls);
   spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
+  spore_window_add_template_actions(self);
   spore_window_add_film_actions(self);
   spore_window_add_export_actions(self);
   spore_window_add_mesh_actions(self);
@@ -267,6 +269,7 @@ SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *sc
   SporeWindow *self = g_object_new(SPORE_TYPE_WINDOW, "application", application, NULL);
   self->schema = schema;
   self->scenes = g_strdup(scenes);
+  spore_window_fill_template_menu(self);
   spore_window_fill_link_menu(self);
   spore_window_fill_instrument_menu(self);
   spore_window_fill_fluid_menu(self);

@@ -98,6 +98,27 @@ def empty_window_says_what_to_do():
 
 
 @check
+def templates_to_begin_with():
+    """the empty view offers whole scenes to begin with: one plays, has no file until it is saved, and is not changed by that."""
+    with start() as editor:
+        editor.press(editor.find("toggle button", "^Templates$"))
+        editor.find(".*", "^Thread: ")
+        keep_picture(editor, "templates")
+        editor.press(editor.find(".*", "^Thread: "))
+        ui.wait(lambda: editor.row("probe") or editor.enabled("play"), "the scene")
+        editor.find("label", "^Untitled$")
+        assert not editor.enabled("undo") and editor.enabled("save"), "it is new, and nowhere yet"
+        editor.act("step")
+        ui.wait(lambda: editor.time_s(), "a step")
+        text = saved(editor, "template")
+        assert "organs/" in text
+        ui.wait(lambda: not editor.enabled("save"), "the scene to have a file")
+    with start(folder("saved") / "template" / "scene.spore") as editor:
+        ui.wait(lambda: editor.enabled("play"), "the same scene from its file")
+        assert not editor.message(), "all that it needs is found from there"
+
+
+@check
 def import_undo_redo():
     """a mesh is imported as one step that can be undone and redone."""
     with start() as editor:

@@ -12,7 +12,7 @@ struct _SporeEditorDocument {
   SporeDocument *document;
   guint listener;
   GArray *selection; /* of guint32: ids */
-  gboolean recovered;
+  gboolean recovered, untitled;
   SporeAccuracyStudy *study;
   struct {
     guint64 revision; /* of the document that the rest is of */
@@ -199,6 +199,7 @@ SporeMeasured spore_editor_document_get_measured(SporeEditorDocument *self) {
 /* Files. */
 
 const char *spore_editor_document_get_save_file(SporeEditorDocument *self) {
+  if (self->untitled) return NULL;
   return self->recovered ? self->original : spore_document_file(self->document);
 }
 
@@ -206,6 +207,8 @@ void spore_editor_document_set_recovered(SporeEditorDocument *self, const char *
   self->recovered = TRUE;
   self->original = g_strdup(original);
 }
+
+void spore_editor_document_set_untitled(SporeEditorDocument *self) { self->untitled = TRUE; }
 
 gboolean spore_editor_document_is_modified(SporeEditorDocument *self) {
   return self->recovered || spore_document_is_modified(self->document);
@@ -222,7 +225,7 @@ gboolean spore_editor_document_save(SporeEditorDocument *self, const char *file,
   g_return_val_if_fail(file, FALSE);
   g_autofree char *kept = g_strdup(file); /* may be the document's own, which saving replaces */
   if (!spore_scene_save(self->document, kept, error)) return FALSE;
-  self->recovered = FALSE;
+  self->recovered = self->untitled = FALSE;
   g_clear_pointer(&self->original, g_free);
   g_signal_emit(self, signals[HISTORY_CHANGED], 0);
   return TRUE;

@@ -54,6 +54,8 @@ SporeMeasured spore_editor_document_get_measured(SporeEditorDocument *self);
  * bundle, too. */
 const char *spore_editor_document_get_save_file(SporeEditorDocument *self);
 void spore_editor_document_set_recovered(SporeEditorDocument *self, const char *original);
+/* Its file is a template, and never written: it has none until it is saved. */
+void spore_editor_document_set_untitled(SporeEditorDocument *self);
 gboolean spore_editor_document_is_modified(SporeEditorDocument *self);
 /* "liver.spore", "liver.sporez" of a bundle, or "Untitled". g_free. */
 char *spore_editor_document_get_title(SporeEditorDocument *self);

@@ -13,7 +13,7 @@ typedef struct SporeOpenWork {
   const SporeSchema *schema;
   char *file;
   char *original; /* of a recovered scene, or NULL */
-  gboolean recovered;
+  gboolean recovered, untitled;
   SporeDocument *document; /* out; taken by setting it to NULL */
 } SporeOpenWork;
 SporeOpenWork *spore_open_work_new(const SporeSchema *schema, const char *file);
