@@ -9,6 +9,7 @@
 #include "core/author/instrument_edits.h"
 #include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
+#include "core/author/port_edits.h"
 #include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
@@ -16,7 +17,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, **fluid, **mirror, **instrument, *patient, *output;
+  char **add, **soft, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
   gboolean probe;
 } Request;
 
@@ -179,6 +180,25 @@ static gboolean mirror_all(SporeDocument *document, char **texts, GPtrArray *cha
   return TRUE;
 }
 
+/* PORT@PLACE */
+static SporeObject *move_port(SporeDocument *document, const char *text, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, "@", 2);
+  SporeVec3 place;
+  if (g_strv_length(parts) < 2 || !spore_place_parse(parts[1], &place)) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, text,
+                      _("this is no port and its place; expected PORT@X,Y,Z in metres, such as "
+                        "grasper_1_port@0.1,0.2,0.1"));
+    return NULL;
+  }
+  SporeObject *port = spore_document_find(document, "port", parts[0]);
+  if (!port)
+    spore_error_raise(error, SPORE_ERROR_INPUT, text,
+                      _("there is no port \"%s\"; expected the name of a port of the scene; add an instrument with an "
+                        "entry, or correct the name"),
+                      parts[0]);
+  return port && spore_edit_move_port(document, port, place, error) ? port : NULL;
+}
+
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->add; path && *path; path++) {
@@ -203,6 +223,11 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   }
   if (!mirror_all(document, request->mirror, changed, error)) return FALSE;
   if (!add_fluids(document, request->fluid, changed, error)) return FALSE;
+  for (char **text = request->port; text && *text; text++) {
+    SporeObject *moved = move_port(document, *text, error);
+    if (!moved) return FALSE;
+    note(changed, moved);
+  }
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
   return probe || !request->probe;
@@ -286,6 +311,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "is nearest) "
           "(may be repeated)"),
        "KIND@X,Y,Z"},
+      {"port", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.port,
+       N_("Move a port, and its instrument with it: the instrument turns about its tip, a camera about what it looks "
+          "at (may be repeated)"),
+       "PORT@X,Y,Z"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
@@ -293,10 +322,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
-                 request.fluid || request.mirror || request.probe;
+                 request.fluid || request.mirror || request.port || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
-                               "--instrument, --mirror, --fluid or --probe; give one of them"));
+                               "--instrument, --mirror, --fluid, --port or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
@@ -306,6 +335,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.fluid);
   g_strfreev(request.mirror);
   g_strfreev(request.instrument);
+  g_strfreev(request.port);
   g_free(request.patient);
   g_free(request.output);
   return status;

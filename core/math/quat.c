@@ -47,3 +47,14 @@ SporeVec3 spore_quat_to_rotation_vector(SporeQuat q) {
   double scale = sine < 1e-8 ? 2 : 2 * atan2(sine, q.w) / sine;
   return spore_vec3_scale(scale, axis);
 }
+
+SporeQuat spore_quat_between(SporeVec3 from, SporeVec3 to) {
+  SporeVec3 axis = spore_vec3_cross(from, to);
+  double w = 1 + spore_vec3_dot(from, to);
+  if (w < 1e-12) {
+    SporeVec3 across = spore_vec3_cross(from, fabs(from.x) < 0.5 ? (SporeVec3){1, 0, 0} : (SporeVec3){0, 1, 0});
+    axis = spore_vec3_normalise(across, (SporeVec3){0, 0, 1});
+    w = 0;
+  }
+  return spore_quat_normalise((SporeQuat){w, axis.x, axis.y, axis.z});
+}

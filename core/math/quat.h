@@ -34,6 +34,8 @@ static inline SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v) {
 SporeMat3 spore_quat_to_mat3(SporeQuat q);
 /* The rotation of an orthonormal matrix with determinant 1; rounding errors of it are evened out. */
 SporeQuat spore_quat_from_mat3(SporeMat3 r);
+/* The smallest rotation that takes one unit vector to the other. */
+SporeQuat spore_quat_between(SporeVec3 from, SporeVec3 to);
 /* Rotation by the vector's length (rad) about its direction. */
 SporeQuat spore_quat_from_rotation_vector(SporeVec3 v);
 /* The inverse: length in [0, pi]. */

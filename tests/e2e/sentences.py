@@ -136,6 +136,14 @@ def folded(curve, unit):
         links="".join(f'<pin name="p{i}" body="b" point="{.025 * i:g} 0 0" radius="0.014"/>' for i in range(5)))
 
 
+def through(step, port):
+    """A probe that stands upright in a port, 0.1 m below it, and a step of an exercise."""
+    x, y, z = map(float, port.split())
+    shown = stone(STONE, BALL, '<visual mesh="cube"/>')
+    return scene(shown, tool(position=f"{x} {y - 0.1} {z}"), tools=PROBE, devices=MOUSE, exercise=step,
+                 links=f'<port name="p" body_a="tool" point="{port}" direction="0 1 0"/>')
+
+
 GOOD = scene(floor(), stone())
 HINGES = dict(hinge="0.06 0 0", axis="0 0 1")
 JAWS = [body(name, BALL, role="active", position="1 0 0") for name in ("left", "right")]
@@ -273,6 +281,12 @@ CHECK = [
     ("\"%s\" passes through \"%s\", whose stiffness is that of the whole",
      ["make it neo_hookean_tetrahedra, if it should be cut; nothing is to be done if not"],
      jaws("scissors", net('<mechanical geometry="cells"><linear_tetrahedra/></mechanical>')), jaws("scissors", net(SOFT))),
+    ("\"%s\" reaches nothing of \"%s\" through its port \"%s\"",
+     ["move the port: drag it in the view with the Edit tool, or by spore edit --port"],
+     through('<touched name="g" body="stone"/>', "0 0.5 0"), through('<touched name="g" body="stone"/>', "0 0.25 0")),
+    ("\"%s\" does not get to the place of the step \"%s\" through its port \"%s\"",
+     ["move the port: drag it in the view with the Edit tool, or by spore edit --port"],
+     through('<reached name="g" point="0.2 0.1 0"/>', "0 0.25 0"), through('<reached name="g" point="0.13 0.1 0"/>', "0 0.25 0")),
     ("no tool of the scene can do the step \"%s\"", ["add a tool that can, or remove the step"],
      scene(stone(), tool(), tools=PROBE, devices=MOUSE, exercise='<grasped name="g" body="stone"/>'),
      scene(stone(), tool(), tools=PROBE, devices=MOUSE, exercise='<touched name="g" body="stone"/>')),

@@ -1497,6 +1497,15 @@ def an_instrument_is_refused_with_a_remedy():
     refuses("edit", bar, "--instrument", "grasper@0,0.1", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])
     refuses("edit", bar, "--instrument", "grasper@0,0.1,0@0,0.1,0@0,0,0", says=["expected KIND@X,Y,Z@X,Y,Z in metres"])
     refuses("edit", bar, "--instrument", "grasper@0,0.02,0@0,0,0", says=["choose places that are farther apart"])
+    ported = bar.with_name("ported.spore")
+    report("edit", bar, "--instrument", "grasper@0.025,0.2,0.004@0.025,0.008,0.004", "-o", ported)
+    assert report("edit", ported, "--port", "grasper_1_port@0.1,0.2,0.05")["changed"] == ["links/grasper_1_port"]
+    assert re.search(r'point="0.10* 0.20* 0.050*"', ported.read_text()), ported.read_text()
+    before = ported.read_text()
+    refuses("edit", ported, "--port", "grasper_1_port@0.1", says=["expected PORT@X,Y,Z in metres"])
+    refuses("edit", ported, "--port", "graspr_1_port@0.1,0,0", says=["there is no port \"graspr_1_port\"", "correct the name"])
+    refuses("edit", ported, "--port", "grasper_1_port@0.025,0.018,0.004", says=["choose one farther away"])
+    assert ported.read_text() == before
 
 
 @check

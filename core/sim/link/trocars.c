@@ -18,18 +18,6 @@ void spore_trocar_make(const SporeWorld *world, SporeTrocar *trocar, const Spore
   trocar->base = spore_vec3_add_scaled(trocar->base, -spore_vec3_dot(trocar->base, trocar->along), trocar->along);
 }
 
-/* The smallest rotation that takes one unit vector to the other. */
-static SporeQuat turn_between(SporeVec3 from, SporeVec3 to) {
-  SporeVec3 axis = spore_vec3_cross(from, to);
-  double w = 1 + spore_vec3_dot(from, to);
-  if (w < 1e-12) {
-    SporeVec3 across = spore_vec3_cross(from, fabs(from.x) < 0.5 ? (SporeVec3){1, 0, 0} : (SporeVec3){0, 1, 0});
-    axis = spore_vec3_normalise(across, (SporeVec3){0, 0, 1});
-    w = 0;
-  }
-  return spore_quat_normalise((SporeQuat){w, axis.x, axis.y, axis.z});
-}
-
 void spore_trocar_aim(const SporeWorld *world, const SporeTrocar *trocar) {
   double *target = world->state.target_q + world->bodies[trocar->body].q_offset;
   SporeQuat orientation = spore_quat_load(target + 3);
@@ -43,6 +31,6 @@ void spore_trocar_aim(const SporeWorld *world, const SporeTrocar *trocar) {
   SporeVec3 wanted = to_frame(orientation, to_pivot);
   bool forward = spore_vec3_dot(wanted, ahead) >= spore_vec3_dot(wanted, behind);
   SporeVec3 from = spore_quat_rotate(orientation, spore_vec3_scale(1 / distance, forward ? ahead : behind));
-  SporeQuat turn = turn_between(from, spore_vec3_scale(1 / distance, to_pivot));
+  SporeQuat turn = spore_quat_between(from, spore_vec3_scale(1 / distance, to_pivot));
   spore_quat_store(target + 3, spore_quat_normalise(spore_quat_multiply(turn, orientation)));
 }
