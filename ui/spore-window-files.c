@@ -5,6 +5,7 @@
 #include "core/base/memory.h"
 #include "core/io/bundle.h"
 #include "core/io/scene_xml.h"
+#include "core/author/track_edits.h"
 #include "ui/document/asset-readers.h"
 #include "ui/jobs/works.h"
 #include "ui/jobs/loop-gaps.h"
@@ -297,6 +298,19 @@ static void act_save_recording(GSimpleAction *action, GVariant *parameter, gpoin
   save_recording(data, g_variant_get_string(parameter, NULL));
 }
 
+/* In the scene, so that it is repeated when the scene is played. */
+static void act_keep_recording(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeSession *session = spore_player_get_session(self->player);
+  if (!session) return;
+  SporeTrack *track = spore_session_recording(session);
+  g_autoptr(GError) error = NULL;
+  SporeObject *kept = spore_edit_keep_track(spore_editor_document_get(self->document), track, &error);
+  spore_input_free(track);
+  if (kept) spore_editor_document_select(self->document, spore_object_id(kept));
+  else spore_window_failed(self, error);
+}
+
 static void act_save_recording_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
   g_autofree char *file =
       spore_window_choose_to_save(data, _("Save recorded input"), ".track", _("Recorded input"), "recording.track");
@@ -411,6 +425,7 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"save-as", act_save_as, "s"},
       {"save-as-dialog", act_save_as_dialog},
       {"save-recording", act_save_recording, "s"},
+      {"keep-recording", act_keep_recording},
       {"save-recording-dialog", act_save_recording_dialog},
       {"save-numbers", act_save_numbers, "s"},
       {"save-numbers-dialog", act_save_numbers_dialog},

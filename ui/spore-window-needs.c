@@ -136,6 +136,7 @@ static const struct {
     {"step", BODIES | STILL},
     {"reset", SESSION},
     {"save-recording", SESSION},
+    {"keep-recording", SESSION},
     {"save-recording-dialog", SESSION},
     {"save-picture", BODIES},
     {"save-picture-dialog", BODIES},

@@ -4,9 +4,10 @@
  * /org/spore/Editor/window/N). Parameters in brackets, s: text, u: number.
  *
  *   files       new, new-from [s template: organ, thread, fluid, net, instrument or effect], open [s path],
- * open-dialog, open-demo, import [s path, s unit, s frame], import-dialog, import-dialog-with [as paths], save, save-as
- * [s path], save-as-dialog, save-recording [s path], save-recording-dialog, save-picture [s path], save-picture-dialog,
- * save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
+ *               open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
+ *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
+ *               save-recording-dialog, keep-recording (in the scene), save-picture [s path], save-picture-dialog,
+ *               save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,

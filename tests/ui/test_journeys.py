@@ -1264,7 +1264,7 @@ def probe_pushes():
 
 @check
 def mouse_takes_an_instrument_from_its_track():
-    """the mouse takes the clamp of plate 8 from its track, turns and closes it; the recording tells so."""
+    """the mouse takes the clamp of plate 8 from its track, turns and closes it; the recording tells so, and is kept in the scene, where it leads the clamp."""
     recording = folder("taken") / "taken.track"
     with start(SCENES / "plate8-clamp.spore") as editor:
         ui.wait(lambda: editor.row("shaft"), "the scene")
@@ -1285,6 +1285,10 @@ def mouse_takes_an_instrument_from_its_track():
         editor.act("pause")
         editor.act("save-recording", "s", str(recording))
         ui.wait(recording.exists, "the recording")
+        editor.act("keep-recording")
+        ui.wait(lambda: editor.row("recording-2"), "the track in the scene")
+        clamp = xml.etree.ElementTree.fromstring(saved(editor, "kept")).find("tools/clamp")
+        assert clamp.get("device") == "recording-2", clamp.attrib
     samples = [line.split() for line in recording.read_text().partition("device shaft\n")[2].splitlines()]
     pressed = [int(sample[9]) & 1 for sample in samples]
     assert 1 in pressed and pressed[-1] == 0, "the right button presses and lets go"
