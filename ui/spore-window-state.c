@@ -200,6 +200,8 @@ static const char *hint_for(SporeWindow *self) {
   if (spore_viewport_edits_regions(SPORE_VIEWPORT(self->viewport)))
     return _("Click puts the region there; its middle and its rim have a handle to drag; N and P choose, Insert adds");
   gboolean edits = g_str_equal(g_variant_get_string(tool, NULL), "edit");
+  if (edits && spore_viewport_has_ports(SPORE_VIEWPORT(self->viewport)))
+    return _("Drag the handle of the port: its instrument turns about its tip and goes with it; Escape takes it back");
   if (edits && !spore_viewport_has_edited(SPORE_VIEWPORT(self->viewport)))
     return _("Nothing to edit by hand here: select an organ that has spheres or a middle line");
   if (edits)

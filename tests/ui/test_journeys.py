@@ -2287,6 +2287,46 @@ def every_link_is_picked():
             ui.wait(lambda: not editor.row(f"left_{element}"), "the link to be undone")
 
 
+@check
+def port_moved_in_the_view():
+    """The cone of a port shows what its instrument reaches, and the inspector says it; the port is dragged in the view, as one step, and its instrument goes with it; Escape takes a drag back."""
+    path = two_balls("port")
+    text = path.read_text()
+    probe = '<body name="probe" role="active" position="0 0.06 0"><visual mesh="ball"/></body>'
+    text = text.replace("</bodies>", probe + "</bodies><links><port name=\"entry\" body_a=\"probe\" point=\"0 0.2 0\"/></links>"
+                        "<tools><probe name=\"probe\" body=\"probe\" device=\"mouse\"/>"
+                        "<camera name=\"over\" position=\"0 0.2 0.6\" target=\"0 0.2 0\"/></tools><devices><mouse name=\"mouse\"/></devices>")
+    path.write_text(text)
+    with start(path) as editor:
+        editor.act("select", "s", "links/entry")
+        editor.find("label", '^"probe" reaches all of "left" through "entry"')
+        editor.act("view", "s", "camera")
+        editor.act("tool", "s", "edit")
+        editor.find("label", "^Drag the handle of the port")
+        editor.focus()
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = x + width // 2, y + height // 2
+
+        def port():
+            root = xml.etree.ElementTree.fromstring(saved(editor, "port"))
+            return vector(root.find("links/port").get("point")), root.find("bodies/body[@name='probe']").get("rotation")
+
+        before = port()
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0)
+        keep_picture(editor, "port")
+        editor.mouse("key", "Escape")
+        editor.mouse("mouseup", 1)
+        assert not editor.enabled("undo") and port() == before
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0, "mouseup", 1)
+        ui.wait(lambda: editor.enabled("undo"), "one step")
+        place, rotation = port()
+        assert place[0] > 0.01 and abs(place[1] - 0.2) < 1e-3 and rotation is not None, (place, rotation)
+        keep_picture(editor, "port-moved")
+        editor.act("undo")
+        ui.wait(lambda: not editor.enabled("undo"), "one step to undo")
+        assert port() == before
+
+
 def red_end(editor):
     """The end of the gizmo's x axis on the screen; None: it is not drawn."""
     pixels, channels, stride, width, height = picture_of_view(editor, 0)

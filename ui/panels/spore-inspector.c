@@ -7,6 +7,7 @@
 #include "core/author/generated_edits.h"
 #include "core/author/region_edits.h"
 #include "core/author/patient_positions.h"
+#include "core/author/port_edits.h"
 #include "core/scene/generated.h"
 #include "ui/document/body-marks.h"
 #include "ui/document/mapping-report.h"
@@ -29,7 +30,7 @@ struct _SporeInspector {
   GtkWidget *title, *subtitle, *sections;
   SporeEditorDocument *document;
   guint rebuild, refresh;
-  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *swing_facts, *mapping_facts,
+  GtkWidget *port_facts, *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *swing_facts, *mapping_facts,
       *measured_facts;
   SporeSphereMeasures *measures;
   SporeSwingMeasures *swings;
@@ -167,7 +168,15 @@ static void show_measured(SporeInspector *self) {
   gtk_widget_set_tooltip_text(self->measured_facts, source);
 }
 
+/* What is reached through ports: of the selected organ, instrument or port. */
+static void show_ports(SporeInspector *self) {
+  SporeObject *selected = spore_editor_document_selected(self->document);
+  g_autofree char *text = selected ? spore_port_sentences(document_of(self), selected) : NULL;
+  gtk_label_set_text(GTK_LABEL(self->port_facts), text ? text : "");
+}
+
 static void show_facts(SporeInspector *self) {
+  if (self->port_facts) show_ports(self);
   if (self->measured_facts) show_measured(self);
   SporeObject *body = spore_editor_document_selected_body(self->document);
   if (!body || !self->model) return;
@@ -300,6 +309,7 @@ static void add_model(SporeInspector *self, SporeObject *model) {
 static void add_body(SporeInspector *self, SporeObject *body) {
   g_autofree char *path = spore_object_path(body);
   GtkBox *own = spore_section_list_add(sections_of(self), _("Body"), path, NULL);
+  if (own) g_set_weak_pointer(&self->port_facts, add_fact(own));
   if (own) add_object(self, own, body);
   add_visual(self, body, path);
   add_collision(self, body, path);
@@ -336,6 +346,7 @@ static void add_patient(GtkBox *box) {
 static void add_one(SporeInspector *self, SporeObject *object) {
   g_autofree char *path = spore_object_path(object);
   GtkBox *box = spore_section_list_add(sections_of(self), _(spore_object_type(object)->label), path, NULL);
+  if (box && spore_object_name(object)) g_set_weak_pointer(&self->port_facts, add_fact(box));
   if (box) add_object(self, box, object);
   if (box && g_str_equal(spore_object_type(object)->element, "environment")) add_patient(box);
 }

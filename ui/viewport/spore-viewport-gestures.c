@@ -62,16 +62,23 @@ static void move_place(SporeViewport *self) {
   if (body) spore_viewport_places_motion(self, body, point);
 }
 
+static void move_port(SporeViewport *self) {
+  SporeVec3 point = {0, 0, 0};
+  guint32 body = pick(self, self->last_x, self->last_y, &point);
+  spore_viewport_ports_motion(self, body, point);
+}
+
 /* Drags. */
 
 void spore_viewport_end_drag(SporeViewport *self) {
   gboolean edits = self->drag == DRAG_EDIT && self->document, places = self->drag == DRAG_PLACE && self->document;
-  gboolean gizmo = self->drag == DRAG_GIZMO && self->document;
+  gboolean gizmo = self->drag == DRAG_GIZMO && self->document, ports = self->drag == DRAG_PORT && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
   if (gizmo) spore_viewport_gizmo_release(self, TRUE);
   if (edits) spore_viewport_edit_release(self, TRUE);
   if (places) spore_viewport_places_release(self, TRUE);
+  if (ports) spore_viewport_ports_release(self, TRUE);
 }
 
 static void abort_drag(SporeViewport *self) {
@@ -86,6 +93,10 @@ static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_PLACE) {
     self->drag = DRAG_NONE;
     spore_viewport_places_release(self, FALSE);
+  }
+  if (self->drag == DRAG_PORT) {
+    self->drag = DRAG_NONE;
+    spore_viewport_ports_release(self, FALSE);
   }
   if (self->drag == DRAG_GIZMO) {
     self->drag = DRAG_NONE;
@@ -121,6 +132,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
     self->pressed_x = event->x, self->pressed_y = event->y;
     return;
   }
+  if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_ports_press(self, event->x, event->y)) return;
   if (spore_viewport_gizmo_press(self, event->x, event->y)) return;
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && spore_viewport_hand_press(self)) return;
@@ -208,6 +220,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
     break;
   case DRAG_PLACE:
     move_place(self);
+    break;
+  case DRAG_PORT:
+    move_port(self);
     break;
   case DRAG_GIZMO:
     spore_viewport_gizmo_motion(self, event->state);

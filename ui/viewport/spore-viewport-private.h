@@ -9,7 +9,17 @@
 
 typedef struct SporeViewportMeasures SporeViewportMeasures;
 
-typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT, DRAG_PLACE, DRAG_GIZMO } SporeDrag;
+typedef enum {
+  DRAG_NONE,
+  DRAG_ORBIT,
+  DRAG_PAN,
+  DRAG_PROBE,
+  DRAG_PULL,
+  DRAG_EDIT,
+  DRAG_PLACE,
+  DRAG_GIZMO,
+  DRAG_PORT
+} SporeDrag;
 
 /* The pixels of a view. */
 typedef struct SporeViewportPicture {
@@ -31,6 +41,8 @@ struct _SporeViewport {
   guint anchor_count;
   SporeVec3 outline[SPORE_OUTLINE_POINTS]; /* of an instrument that is being placed */
   guint outline_count;
+  GArray *ports;                                           /* of the selected instrument, see spore-viewport-ports.c */
+  guint32 port_held;                                       /* id of the port that the drag moves */
   GArray *link_marks;                                      /* of the scene's links, see spore-viewport-links.c */
   GMenuModel *link_kinds, *instrument_kinds, *fluid_kinds; /* for menus */
   SporeStageOptions options;
@@ -144,6 +156,16 @@ void spore_viewport_links_refresh(SporeViewport *self);
 void spore_viewport_links_draw(SporeViewport *self, cairo_t *cr);
 /* Id of the link that is drawn there; 0: none. */
 guint32 spore_viewport_link_at(SporeViewport *self, double x, double y);
+
+/* spore-viewport-ports.c: what the selected instrument reaches through its port. */
+GArray *spore_viewport_ports_new(void);
+/* Reads the ports of what is selected. */
+void spore_viewport_ports_refresh(SporeViewport *self);
+void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr);
+gboolean spore_viewport_ports_press(SporeViewport *self, double x, double y); /* FALSE: no port was there */
+/* body: what the cursor meets, at that place of the scene; 0: nothing. */
+void spore_viewport_ports_motion(SporeViewport *self, guint32 body, SporeVec3 surface);
+void spore_viewport_ports_release(SporeViewport *self, gboolean keep);
 
 /* spore-viewport-edit.c: the Edit tool. */
 /* Shows what the selection offers to edit. */

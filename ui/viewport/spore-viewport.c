@@ -74,6 +74,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_set_options(self->stage, &self->options);
   show_selection(self);
   spore_viewport_links_refresh(self);
+  if (self->drag != DRAG_PORT) spore_viewport_ports_refresh(self);
   spore_viewport_look_afresh(self);
   spore_viewport_edit_refresh(self);
   update_stage(self);
@@ -104,6 +105,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   if (stale) self->draw_ms = (double)(g_get_monotonic_time() - start) / 1000;
   spore_viewport_overlay_draw(self, cr, width, height);
   spore_viewport_links_draw(self, cr);
+  spore_viewport_ports_draw(self, cr);
   spore_viewport_hand_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
   spore_viewport_places_draw(self, cr);
@@ -186,6 +188,7 @@ static void player_replaced(SporeViewport *self) {
 static void selection_changed(SporeViewport *self) {
   if (self->stage) show_selection(self);
   self->regions = 0;
+  spore_viewport_ports_refresh(self);
   spore_viewport_edit_refresh(self);
   spore_viewport_overlay_update(self); /* which instrument is led */
   spore_viewport_redraw(self);
@@ -332,6 +335,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->marks.segments, g_free);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
   g_clear_pointer(&self->link_marks, g_array_unref);
+  g_clear_pointer(&self->ports, g_array_unref);
   g_clear_pointer(&self->measures, spore_viewport_measures_free);
   g_clear_object(&self->link_kinds);
   g_clear_object(&self->instrument_kinds);
@@ -403,6 +407,7 @@ void spore_viewport_set_controls(SporeViewport *self, GtkWidget *controls) {
 static void spore_viewport_init(SporeViewport *self) {
   self->hidden = g_hash_table_new(NULL, NULL);
   self->link_marks = spore_viewport_link_marks_new();
+  self->ports = spore_viewport_ports_new();
   self->measures = spore_viewport_measures_new();
   self->options = (SporeStageOptions){.surfaces = TRUE};
   spore_hand_edit_close(&self->edit);

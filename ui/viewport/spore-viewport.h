@@ -6,7 +6,8 @@
  * scene's camera and with it, X there and back, V shows both, Escape takes a drag back. With the Lead tool, left moves
  * the instrument and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its jaws
  * and presses its pedal; with Shift let go, they stay so; Ctrl+right opens what stays closed by itself. N and P choose
- * the instrument, arrows and Page Up and Down move it, C closes it, O opens it. With the Edit tool, left picks and
+ * the instrument, arrows and Page Up and Down move it, C closes it, O opens it. With the Edit tool, left drags
+ * the port of the selected instrument, and picks and
  * moves spheres and points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N
  * and P go on, Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the
  * chosen one there.
@@ -60,6 +61,8 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 /* Leads the next instrument, round and round. */
 void spore_viewport_lead_next(SporeViewport *self);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
+/* Whether a port of what is selected is shown, which the Edit tool moves. */
+gboolean spore_viewport_has_ports(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */
 gboolean spore_viewport_has_edited(SporeViewport *self);
 /* While picking, a click of the left button, or the space bar for the middle of the view, emits "picked" instead of
