@@ -295,7 +295,8 @@ static const SporeReportMember members[] = {
     {"parts",
      N_("of the surface, the largest area first, at most 64: name, role (bounds the solid; merged with what it lies "
         "in; "
-        "inside: left out; cavity; sheet), in (index of the part in which most of what lies inside does, -1: none), "
+        "inside: left out; cavity; sheet), wall (of one wholly inside another one: open, lumen, doubled, closed, "
+        "turned; none: it is no such wall), in (index of the part in which most of what lies inside does, -1: none), "
         "triangles, holes, open_edges, area_m2, inside_share, least_depth_m, most_depth_m (below the surface of that "
         "part), cells (with --pieces apart: of its own; the tag of these in the file is 1 + its index here)")},
     {"crumbs",

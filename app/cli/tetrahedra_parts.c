@@ -11,6 +11,7 @@ void spore_cli_report_parts(SporeCli *cli, const SporeTetrahedraReport *report) 
     spore_cli_open(cli, NULL);
     spore_cli_text(cli, "name", piece->name);
     spore_cli_text(cli, "role", spore_piece_role_names[piece->role]);
+    spore_cli_text(cli, "wall", spore_piece_wall_names[piece->wall]);
     spore_cli_count(cli, "in", piece->in);
     spore_cli_count(cli, "triangles", (gint64)piece->triangles);
     spore_cli_count(cli, "holes", (gint64)piece->holes);

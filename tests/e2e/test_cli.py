@@ -1814,6 +1814,7 @@ def tetrahedra_of_parts():
     assert roles == {"organ": "merged", "vessel": "merged", "chamber": "inside"}, roles
     inside = next(part for part in answer["parts"] if part["name"] == "chamber")
     assert answer["parts"][inside["in"]]["name"] == "organ" and 0.010 < inside["least_depth_m"] < 0.0155, inside
+    assert [part["wall"] for part in answer["parts"] if part["wall"] != "none"] == [inside["wall"]] == ["closed"], answer
     hollow = report(*ask, "--hollow")
     assert "cavity" in [part["role"] for part in hollow["parts"] if part["name"] == "chamber"]
     assert hollow["volume"]["result"] < answer["volume"]["result"] - 1e-5

@@ -244,6 +244,75 @@ static void test_sheet(void) {
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
+/* A flat septum in the middle of the organ. */
+static SporeTriangleMesh septum(void) {
+  SporeTriangleMesh sheet = {0};
+  shape_box(&sheet, (double[3]){-0.012, -0.012, 0}, (double[3]){0.012, 0.012, 0.01}, 4);
+  cut_above(&sheet, 0.0005);
+  return sheet;
+}
+
+/* A tube of 8 mm through the middle of the organ, open at both ends. */
+static SporeTriangleMesh open_tube(void) {
+  SporeTriangleMesh tube = {0};
+  shape_capsule(&tube, 0.008, 0.012, 5);
+  cut_above(&tube, 0.0125);
+  shape_turn(&tube);
+  for (size_t i = 0; i < tube.vertex_count; i++) tube.vertices[3 * i + 2] *= -1; /* a mirror turns triangles over */
+  cut_above(&tube, 0.0125);
+  return tube;
+}
+
+/* Whether the remarks hold the words. */
+static void check_told(const Result *result, SporeTetrahedraOptions options, const char *words, bool told) {
+  char *remarks = spore_tetrahedra_remarks(&result->mesh, &options, &result->report);
+  if ((strstr(remarks, words) != NULL) != told) g_error("%s: %s", words, remarks);
+  g_free(remarks);
+}
+
+/* Each kind of wall inside is told with its pieces, its holes and the remedy, and no other kind is: a tube that is open
+ * at both ends, turned outward and inward, a septum, a second wall, a chamber, a ball that is turned inside out. What
+ * `hollow` made of a chamber is as asked, and one ball beside another one is no wall. */
+static void test_walls(void) {
+  static const char *const words[] = {
+      "open tubes or sheets inside: ", "open tubes or sheets inside that are turned inward: ",
+      "second walls close inside another one: ", "closed pieces inside, as chambers or parts of an organ: ",
+      "closed pieces inside that are turned inside out: "};
+  static const struct {
+    double radius; /* of a ball; 0: the tube; below 0: the septum */
+    double beside; /* m */
+    bool turned, hollow;
+    SporePieceWall wall;
+    double solid; /* volume */
+  } cases[] = {{.wall = SPORE_WALL_OPEN, .solid = VOLUME(0.03)},
+               {.turned = true, .wall = SPORE_WALL_LUMEN, .solid = VOLUME(0.03) - 0.025 * 3.14159265 * 6.4e-5},
+               {.radius = -1, .wall = SPORE_WALL_OPEN, .solid = VOLUME(0.03)},
+               {.radius = -1, .turned = true, .wall = SPORE_WALL_OPEN, .solid = VOLUME(0.03)},
+               {.radius = 0.0295, .wall = SPORE_WALL_DOUBLED, .solid = VOLUME(0.03)},
+               {.radius = 0.018, .wall = SPORE_WALL_CLOSED, .solid = VOLUME(0.03)},
+               {.radius = 0.018, .turned = true, .wall = SPORE_WALL_TURNED, .solid = VOLUME(0.03) - VOLUME(0.018)},
+               {.radius = 0.018, .hollow = true, .wall = SPORE_WALL_NONE, .solid = VOLUME(0.03) - VOLUME(0.018)},
+               {.radius = 0.018, .beside = 0.06, .wall = SPORE_WALL_NONE, .solid = VOLUME(0.03) + VOLUME(0.018)}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SporeTriangleMesh part = {0};
+    if (cases[i].radius > 0) shape_ball(&part, cases[i].radius, 8);
+    else part = cases[i].radius < 0 ? septum() : open_tube();
+    if (cases[i].turned) shape_turn(&part);
+    shape_move(&part, cases[i].beside, 0, 0);
+    const SporeTetrahedraOptions options = {.hollow = cases[i].hollow};
+    Result result = fill_two(&part, options, "vessel: ");
+    g_assert_cmpint(result.report.piece[1].wall, ==, cases[i].wall);
+    g_assert_cmpint(result.report.piece[0].wall, ==, SPORE_WALL_NONE);
+    g_assert_cmpint(result.report.piece[1].in, ==, cases[i].beside > 0 ? -1 : 0);
+    for (int kind = 0; kind < (int)G_N_ELEMENTS(words); kind++)
+      check_told(&result, options, words[kind], kind + 1 == (int)cases[i].wall);
+    check_told(&result, options, ": 1 (vessel); holes: 2; ", cases[i].radius == 0);
+    check_told(&result, options, ": 1 (vessel); holes: 1; ", cases[i].radius < 0);
+    g_assert_cmpfloat(fabs(result.report.volume / cases[i].solid - 1), <, 0.08);
+    spore_tetrahedral_mesh_clear(&result.mesh);
+  }
+}
+
 /* The number of the label's cells, and of the nodes that they share with those of another label. */
 static void count_cells(const SporeTetrahedralMesh *mesh, uint32_t label, size_t *cells, size_t *shared) {
   bool *own = SPORE_NEW_ARRAY(bool, mesh->vertex_count), *other = SPORE_NEW_ARRAY(bool, mesh->vertex_count);
@@ -375,6 +444,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/tetrahedra/hollow-nests", test_hollow_nests);
   g_test_add_func("/tetrahedra/largest", test_largest);
   g_test_add_func("/tetrahedra/sheet", test_sheet);
+  g_test_add_func("/tetrahedra/walls", test_walls);
   g_test_add_func("/tetrahedra/mixed", test_mixed);
   g_test_add_func("/tetrahedra/apart", test_apart);
   g_test_add_func("/tetrahedra/far", test_far);

@@ -11,9 +11,13 @@
 #include "core/mesh/common.h"
 
 #define BESIDE 1e-4 /* of the diagonal: distance from the surface at which its two sides are tested */
+#define SURE 0.1    /* of the winding number: farther than this from one half its side is sure */
 #define FEW 0.02    /* share of a piece's points that is let pass */
 
+#define THIN 0.1 /* of a piece's least extent: a wall no farther inside than this is a second wall */
+
 const char *const spore_piece_role_names[] = {"bounds", "merged", "inside", "cavity", "sheet", NULL};
+const char *const spore_piece_wall_names[] = {"none", "open", "lumen", "doubled", "closed", "turned", NULL};
 
 /* A piece while it is looked at. */
 typedef struct Look {
@@ -21,6 +25,8 @@ typedef struct Look {
   SporePieceShell shell;
   bool inner[SPORE_PIECE_SAMPLES]; /* the solid is on both sides of the point */
   size_t inner_count;
+  bool cut; /* more than a few points have no solid on one side, surely: beside a flat sheet inside, the winding number
+               is one half */
 } Look;
 
 static int by_area(const void *a, const void *b) {
@@ -32,25 +38,28 @@ static int by_area(const void *a, const void *b) {
 /* Classifies the points of a piece by the solid on their two sides. */
 static SporePieceRole role_of(const SporeTetrahedraWork *work, Look *look) {
   const size_t few = (size_t)(FEW * SPORE_PIECE_SAMPLES);
-  size_t none = 0;
+  size_t none = 0, cut = 0;
   for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
     SporeVec3 p = spore_vec3_load(look->shell.points + 3 * i), n = look->shell.normals[i];
-    bool behind = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n)) > 0.5;
-    bool before = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n)) > 0.5;
+    const double back = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n));
+    const double front = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n));
+    const bool behind = back > 0.5, before = front > 0.5;
     look->inner[i] = behind && before;
     look->inner_count += look->inner[i];
     none += !behind && !before;
+    cut += fmin(back, front) < 0.5 - SURE;
   }
+  look->cut = cut > few;
   if (2 * none > SPORE_PIECE_SAMPLES) return SPORE_PIECE_SHEET;
   if (look->inner_count + few >= SPORE_PIECE_SAMPLES) return SPORE_PIECE_INSIDE;
   if (look->inner_count > few) return SPORE_PIECE_MERGED;
   return look->piece->closed && look->piece->volume < 0 ? SPORE_PIECE_CAVITY : SPORE_PIECE_BOUNDS;
 }
 
-/* Finds the piece around what lies inside: of those that hold nearly the most points, the one of the least area. */
-static void find_around(const Look *looks, size_t count, size_t own, SporeTetrahedraPiece *told) {
+/* Finds the piece around what lies inside: of those that hold nearly the most points, the one of the least area. all:
+ * of all points of the piece. Returns how many points that piece holds at least. */
+static size_t find_around(const Look *looks, size_t count, size_t own, bool all, SporeTetrahedraPiece *told) {
   const Look *look = looks + own;
-  const bool all = told->role == SPORE_PIECE_CAVITY;
   size_t most = 0;
   for (size_t other = 0; other < count; other++) {
     size_t held = 0;
@@ -62,7 +71,7 @@ static void find_around(const Look *looks, size_t count, size_t own, SporeTetrah
     told->in = (int)other;
     most = held > most ? held : most;
   }
-  if (told->in < 0) return;
+  if (told->in < 0) return 0;
   told->depth[0] = HUGE_VAL;
   for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
     if (!all && !look->inner[i]) continue;
@@ -71,6 +80,23 @@ static void find_around(const Look *looks, size_t count, size_t own, SporeTetrah
     told->depth[0] = fmin(told->depth[0], depth);
     told->depth[1] = fmax(told->depth[1], depth);
   }
+  return most;
+}
+
+/* Whether a piece with holes, which has solid on one side of it, lies wholly inside another one. */
+static bool is_open_within(const Look *looks, size_t count, size_t own, const SporeTetrahedraPiece *told) {
+  SporeTetrahedraPiece found = *told;
+  if (!looks[own].piece->holes) return false;
+  return find_around(looks, count, own, true, &found) + (size_t)(FEW * SPORE_PIECE_SAMPLES) >= SPORE_PIECE_SAMPLES;
+}
+
+/* The wall that a piece with a place inside another one is there. */
+static SporePieceWall wall_of(const Look *look, const SporeTetrahedraPiece *told, bool hollow) {
+  const double least = fmin(told->size[0], fmin(told->size[1], told->size[2]));
+  if (told->in < 0 || told->role == SPORE_PIECE_MERGED) return SPORE_WALL_NONE;
+  if (told->role == SPORE_PIECE_CAVITY) return hollow ? SPORE_WALL_NONE : SPORE_WALL_TURNED;
+  if (look->piece->holes) return SPORE_WALL_OPEN;
+  return told->depth[1] <= THIN * least ? SPORE_WALL_DOUBLED : SPORE_WALL_CLOSED;
 }
 
 static void tell(const SporeTetrahedraWork *work, Look *look, SporeTetrahedraPiece *told) {
@@ -95,11 +121,17 @@ static bool look_at(SporeTetrahedraWork *work, Look *looks, SporeError *error) {
     tell(work, looks + i, work->piece + i);
   }
   for (size_t i = 0; i < count; i++) {
-    const SporePieceRole role = work->piece[i].role;
-    if (role == SPORE_PIECE_BOUNDS || role == SPORE_PIECE_SHEET) continue;
+    SporeTetrahedraPiece *told = work->piece + i;
+    if (told->role == SPORE_PIECE_SHEET) continue;
     if (!spore_tetrahedra_progress(work, 1, _("looking at the pieces"), error)) return false;
-    find_around(looks, count, i, work->piece + i);
-    work->mixed = work->mixed || (role != SPORE_PIECE_CAVITY && work->piece[i].in >= 0);
+    const bool open = told->role != SPORE_PIECE_INSIDE && is_open_within(looks, count, i, told);
+    if (told->role == SPORE_PIECE_BOUNDS && !open) continue;
+    const bool all = told->role == SPORE_PIECE_CAVITY || open;
+    find_around(looks, count, i, all, told);
+    if (open) told->wall = looks[i].cut ? SPORE_WALL_LUMEN : SPORE_WALL_OPEN;
+    if (told->wall == SPORE_WALL_OPEN) told->role = SPORE_PIECE_INSIDE;
+    if (told->wall == SPORE_WALL_NONE) told->wall = wall_of(looks + i, told, work->options.hollow);
+    work->mixed = work->mixed || (!all && told->in >= 0);
   }
   return true;
 }
@@ -225,8 +257,7 @@ bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error)
   return done;
 }
 
-/* What to call a piece: by the name of its part, with a number where several pieces have the same name. */
-static char *called(const SporeTetrahedraReport *report, int number) {
+char *spore_tetrahedra_piece_called(const SporeTetrahedraReport *report, int number) {
   const char *name = report->piece[number].name;
   int alike = 0, before = 0;
   for (int i = 0; i < (int)report->piece_count; i++) {
@@ -239,8 +270,10 @@ static char *called(const SporeTetrahedraReport *report, int number) {
 }
 
 static char *merged_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
-  g_autofree char *in = piece->in >= 0 ? called(report, piece->in) : g_strdup(_("others"));
+  g_autofree char *in = piece->in >= 0 ? spore_tetrahedra_piece_called(report, piece->in) : g_strdup(_("others"));
   const double least = 1e3 * piece->depth[0], most = 1e3 * piece->depth[1];
+  if (piece->wall == SPORE_WALL_LUMEN)
+    return g_strdup_printf(_("an open wall inside %s, turned inward: what it holds is cut out"), in);
   switch (piece->role) {
   case SPORE_PIECE_BOUNDS:
     return g_strdup(_("bounds the solid"));
@@ -261,7 +294,8 @@ static char *merged_text(const SporeTetrahedraReport *report, const SporeTetrahe
 /* What a piece is to the solid, and its cells where pieces are kept apart. */
 static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece, bool apart) {
   if (!apart || !piece->parted) return merged_text(report, piece);
-  g_autofree char *in = piece->in >= 0 && report->piece[piece->in].parted ? called(report, piece->in) : NULL;
+  g_autofree char *in =
+      piece->in >= 0 && report->piece[piece->in].parted ? spore_tetrahedra_piece_called(report, piece->in) : NULL;
   if (!piece->cells) return g_strdup(_("finer than the cells, it has none; ask for more or smaller cells"));
   if (!in) return g_strdup_printf(_("cells of its own: %zu"), piece->cells);
   return g_strdup_printf(_("cells of its own: %zu; %.0f %% of it lie inside, most of that in %s"), piece->cells,
@@ -276,7 +310,8 @@ void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *op
   if (report->piece_count < 2 && !report->piece[0].holes) return;
   for (size_t i = 0; i < report->piece_count; i++) {
     const SporeTetrahedraPiece *piece = report->piece + i;
-    g_autofree char *name = called(report, (int)i), *role = role_text(report, piece, options->apart);
+    g_autofree char *name = spore_tetrahedra_piece_called(report, (int)i),
+                    *role = role_text(report, piece, options->apart);
     g_string_append_printf(text, _("%s: %zu triangles, %.3g x %.3g x %.3g mm; %s"), name, piece->triangles,
                            1e3 * piece->size[0], 1e3 * piece->size[1], 1e3 * piece->size[2], role);
     if (piece->holes && piece->role != SPORE_PIECE_SHEET && piece->role != SPORE_PIECE_INSIDE)

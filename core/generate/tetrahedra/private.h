@@ -76,6 +76,10 @@ bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error)
 /* Appends a line about each piece of the report, where there are several or one has holes. */
 void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *options,
                                  const SporeTetrahedraReport *report);
+/* What to call a piece: by the name of its part, with a number where several pieces have the same name. g_free. */
+char *spore_tetrahedra_piece_called(const SporeTetrahedraReport *report, int number);
+/* Appends a line about each kind of wall inside: how many pieces, which, their holes, and what to do. */
+void spore_tetrahedra_say_walls(GString *text, const SporeTetrahedraReport *report);
 /* Largest distances between the mesh and the points that bound the solid, both ways, and from the inner points. */
 bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
                                 double *inner, double *area, SporeError *error);

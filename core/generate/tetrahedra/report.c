@@ -30,9 +30,9 @@ static void say_left_out(GString *text, const SporeTetrahedraOptions *options, c
     g_string_append_printf(
         text,
         _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
-          "they are left out, and what they enclose is filled; to keep what a closed piece encloses as a cavity, ask "
-          "for hollow; for an open lumen, give the organ a wall by making a surface of it\n"),
+          "they are left out, and what they enclose is filled\n"),
         100 * report->inner_share, 100 * report->inner_distance);
+  spore_tetrahedra_say_walls(text, report);
   if (report->thickened > 0)
     g_string_append_printf(
         text,

@@ -54,11 +54,25 @@ typedef enum SporePieceRole {
 /* "bounds", "merged", "inside", "cavity", "sheet", then NULL. */
 extern const char *const spore_piece_role_names[];
 
+/* A piece that lies wholly inside another one and has no cells of its own: which kind of wall it is there. */
+typedef enum SporePieceWall {
+  SPORE_WALL_NONE,    /* it lies in none, or has cells of its own, or bounds a cavity that `hollow` asked for */
+  SPORE_WALL_OPEN,    /* a tube or sheet with holes: the solid is on both sides of it */
+  SPORE_WALL_LUMEN,   /* the same, turned inward: what it holds is cut out of the solid */
+  SPORE_WALL_DOUBLED, /* closed, nowhere farther from the wall around it than a tenth of its own least extent */
+  SPORE_WALL_CLOSED,  /* closed, farther from the wall around it: a chamber, or a part of the organ */
+  SPORE_WALL_TURNED,  /* closed and turned inside out: it bounds a cavity that `hollow` did not ask for */
+} SporePieceWall;
+/* "none", "open", "lumen", "doubled", "closed", "turned", then NULL. */
+extern const char *const spore_piece_wall_names[];
+
 /* Triangles that hang together by edges and are of one part of the file. */
 typedef struct SporeTetrahedraPiece {
   char name[48]; /* of its part; "": it has none */
   SporePieceRole role;
-  int in; /* piece of the report in which most of what lies inside does; -1: there is none of the report */
+  SporePieceWall wall;
+  int in; /* piece of the report in which most of what lies inside does, or that holds a lumen; -1: none of the report
+           */
   size_t triangles, holes, open_edges;
   double size[3], area; /* m along the axes, m^2 */
   double inside_share;  /* share of the area that lies inside the solid */
