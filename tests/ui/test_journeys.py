@@ -2824,7 +2824,7 @@ def exercise_from_nothing():
         editor.act("frame")
         editor.act("view", "s", "front")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
-        middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height * 9 // 10)
+        middle, beside = (x + width // 2, y + height // 2), (x + width * 9 // 10, y + height // 2)  # at the foot are messages
         editor.act("add-step", "s", "cut")
         ui.wait(lambda: "expected one of: scissors" in (editor.message() or ""), "the refusal of what no tool can do")
         editor.press(editor.find("toggle button", "^Add step$"))
