@@ -11,8 +11,9 @@
 #include "core/mesh/common.h"
 
 #define BESIDE 1e-4 /* of the diagonal: distance from the surface at which its two sides are tested */
-#define SURE 0.1    /* of the winding number: farther than this from one half its side is sure */
 #define FEW 0.02    /* share of a piece's points that is let pass */
+#define HOLDS                                                                                                          \
+  0.002 /* volume over area^1.5 of an open piece that holds something: .02 of a tube 50 widths long, 0 flat */
 
 #define THIN 0.1 /* of a piece's least extent: a wall no farther inside than this is a second wall */
 
@@ -25,8 +26,6 @@ typedef struct Look {
   SporePieceShell shell;
   bool inner[SPORE_PIECE_SAMPLES]; /* the solid is on both sides of the point */
   size_t inner_count;
-  bool cut; /* more than a few points have no solid on one side, surely: beside a flat sheet inside, the winding number
-               is one half */
 } Look;
 
 static int by_area(const void *a, const void *b) {
@@ -38,18 +37,15 @@ static int by_area(const void *a, const void *b) {
 /* Classifies the points of a piece by the solid on their two sides. */
 static SporePieceRole role_of(const SporeTetrahedraWork *work, Look *look) {
   const size_t few = (size_t)(FEW * SPORE_PIECE_SAMPLES);
-  size_t none = 0, cut = 0;
+  size_t none = 0;
   for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
     SporeVec3 p = spore_vec3_load(look->shell.points + 3 * i), n = look->shell.normals[i];
-    const double back = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n));
-    const double front = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n));
-    const bool behind = back > 0.5, before = front > 0.5;
+    bool behind = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n)) > 0.5;
+    bool before = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n)) > 0.5;
     look->inner[i] = behind && before;
     look->inner_count += look->inner[i];
     none += !behind && !before;
-    cut += fmin(back, front) < 0.5 - SURE;
   }
-  look->cut = cut > few;
   if (2 * none > SPORE_PIECE_SAMPLES) return SPORE_PIECE_SHEET;
   if (look->inner_count + few >= SPORE_PIECE_SAMPLES) return SPORE_PIECE_INSIDE;
   if (look->inner_count > few) return SPORE_PIECE_MERGED;
@@ -90,6 +86,21 @@ static bool is_open_within(const Look *looks, size_t count, size_t own, const Sp
   return find_around(looks, count, own, true, &found) + (size_t)(FEW * SPORE_PIECE_SAMPLES) >= SPORE_PIECE_SAMPLES;
 }
 
+/* Whether an open piece inside another one cuts what it holds out of the solid: one that is flat holds nothing, though
+ * beside it the winding number may be below one half. */
+static bool cuts_out(const Look *look) {
+  SporeVec3 middle = {0, 0, 0};
+  double reach = 0;
+  for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++)
+    middle = spore_vec3_add_scaled(middle, 1.0 / SPORE_PIECE_SAMPLES, spore_vec3_load(look->shell.points + 3 * i));
+  for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++)
+    reach +=
+        spore_vec3_dot(spore_vec3_sub(spore_vec3_load(look->shell.points + 3 * i), middle), look->shell.normals[i]);
+  const double area = look->piece->area, volume = area * reach / (3 * SPORE_PIECE_SAMPLES);
+  return look->inner_count + (size_t)(FEW * SPORE_PIECE_SAMPLES) < SPORE_PIECE_SAMPLES &&
+         fabs(volume) > HOLDS * pow(area, 1.5);
+}
+
 /* The wall that a piece with a place inside another one is there. */
 static SporePieceWall wall_of(const Look *look, const SporeTetrahedraPiece *told, bool hollow) {
   const double least = fmin(told->size[0], fmin(told->size[1], told->size[2]));
@@ -128,7 +139,7 @@ static bool look_at(SporeTetrahedraWork *work, Look *looks, SporeError *error) {
     if (told->role == SPORE_PIECE_BOUNDS && !open) continue;
     const bool all = told->role == SPORE_PIECE_CAVITY || open;
     find_around(looks, count, i, all, told);
-    if (open) told->wall = looks[i].cut ? SPORE_WALL_LUMEN : SPORE_WALL_OPEN;
+    if (open) told->wall = cuts_out(looks + i) ? SPORE_WALL_LUMEN : SPORE_WALL_OPEN;
     if (told->wall == SPORE_WALL_OPEN) told->role = SPORE_PIECE_INSIDE;
     if (told->wall == SPORE_WALL_NONE) told->wall = wall_of(looks + i, told, work->options.hollow);
     work->mixed = work->mixed || (!all && told->in >= 0);
@@ -314,7 +325,8 @@ void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *op
                     *role = role_text(report, piece, options->apart);
     g_string_append_printf(text, _("%s: %zu triangles, %.3g x %.3g x %.3g mm; %s"), name, piece->triangles,
                            1e3 * piece->size[0], 1e3 * piece->size[1], 1e3 * piece->size[2], role);
-    if (piece->holes && piece->role != SPORE_PIECE_SHEET && piece->role != SPORE_PIECE_INSIDE)
+    if (piece->holes && piece->role != SPORE_PIECE_SHEET && piece->role != SPORE_PIECE_INSIDE &&
+        piece->wall != SPORE_WALL_LUMEN)
       g_string_append_printf(text, _("; holes that are closed: %zu, of %zu open edges"), piece->holes,
                              piece->open_edges);
     g_string_append_c(text, '\n');

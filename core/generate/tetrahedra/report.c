@@ -30,7 +30,7 @@ static void say_left_out(GString *text, const SporeTetrahedraOptions *options, c
     g_string_append_printf(
         text,
         _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
-          "they are left out, and what they enclose is filled\n"),
+          "they are left out, and what they enclose is filled; for cells of their own, keep the pieces apart\n"),
         100 * report->inner_share, 100 * report->inner_distance);
   spore_tetrahedra_say_walls(text, report);
   if (report->thickened > 0)
