@@ -20,23 +20,7 @@ static const char organs[] =
 
 static const SporeVec3 on_organ = {0.01, 0.051, 0}, on_wall = {0.51, 0.051, 0};
 
-typedef struct Scene {
-  char *folder;
-  SporeDocument *document;
-} Scene;
-
-static Scene scene_new(void) {
-  Scene scene = {.folder = fixture_scene_folder_new(organs)};
-  scene.document = fixture_load(scene.folder);
-  return scene;
-}
-
-static void scene_free(Scene *scene) {
-  spore_document_free(scene->document);
-  fixture_folder_free(scene->folder);
-}
-
-static SporeObject *add(const Scene *scene, const char *kind, SporeVec3 place) {
+static SporeObject *add(const FixtureScene *scene, const char *kind, SporeVec3 place) {
   g_autoptr(GError) error = NULL;
   SporeObject *added = spore_edit_add_fluid(scene->document, spore_fluid_find(kind), NULL, NULL, place, &error);
   g_assert_no_error(error);
@@ -49,7 +33,7 @@ static SporeVec3 vector(const SporeObject *object, const char *property) {
 }
 
 /* How many diagnostics name the object, or a part of it. */
-static guint said_of(const Scene *scene, const char *name) {
+static guint said_of(const FixtureScene *scene, const char *name) {
   g_autoptr(GPtrArray) found = spore_document_check(scene->document, NULL);
   guint count = 0;
   for (guint i = 0; i < found->len; i++) {
@@ -62,7 +46,7 @@ static guint said_of(const Scene *scene, const char *name) {
 }
 
 /* Particles in the world at time 0 and at that time. */
-static void run(const Scene *scene, const char *fluid, double time_s, gsize *at_start, gsize *at_end) {
+static void run(const FixtureScene *scene, const char *fluid, double time_s, gsize *at_start, gsize *at_end) {
   g_autoptr(GError) error = NULL;
   g_autoptr(SporeSimulation) simulation = spore_simulation_new(scene->document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
@@ -79,7 +63,7 @@ static void test_flows(void) {
   static const char *const kinds[][2] = {{"bleeding", "blood"}, {"steam", "steam"}};
   const SporeVec3 places[] = {on_organ, on_wall};
   for (gsize i = 0; i < 4; i++) {
-    Scene scene = scene_new();
+    FixtureScene scene = fixture_scene_new(organs);
     g_autofree char *before = fixture_format(scene.document);
     SporeObject *emitter = add(&scene, kinds[i % 2][0], places[i / 2]);
     SporeVec3 point = vector(emitter, "point");
@@ -96,13 +80,13 @@ static void test_flows(void) {
     spore_document_undo(scene.document);
     g_autofree char *after = fixture_format(scene.document);
     g_assert_cmpstr(after, ==, before);
-    scene_free(&scene);
+    fixture_scene_free(&scene);
   }
 }
 
 /* A wound is dry until it is cut; what cannot be cut has none. */
 static void test_wound(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(organs);
   GError *error = NULL;
   SporeObject *emitter = add(&scene, "wound", on_organ);
   g_assert_cmpstr(spore_object_text(emitter, "source"), ==, "organ");
@@ -114,13 +98,13 @@ static void test_wound(void) {
   g_assert_null(spore_edit_add_fluid(scene.document, spore_fluid_find("wound"), NULL, NULL, on_wall, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "make it soft first");
   g_assert_false(spore_document_can_undo(scene.document));
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* What is poured lies over the place, clear of the wall's spheres and surface, whole in the world; under a lid there is
  * less of it, and where the lid lies on the organ there is none. */
 static void test_pool(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(organs);
   gsize all, less, at_end;
   SporeVec3 middle = vector(add(&scene, "pool", on_wall), "position");
   g_assert_cmpfloat_with_epsilon(middle.x, on_wall.x, 1e-3);
@@ -142,12 +126,12 @@ static void test_pool(void) {
   SporeObject *wall = spore_document_find(scene.document, "body", "wall");
   g_assert_null(spore_edit_add_fluid(scene.document, spore_fluid_find("pool"), NULL, wall, on_wall, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "there is no room over this place");
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* Steam of coagulation comes out of the bipolar instrument that is nearest; without one it is refused. */
 static void test_coagulation(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(organs);
   GError *error = NULL;
   const SporeFluidKind *kind = spore_fluid_find("coagulation");
   g_assert_null(spore_edit_add_fluid(scene.document, kind, NULL, NULL, on_organ, &error));
@@ -162,7 +146,7 @@ static void test_coagulation(void) {
   g_assert_cmpstr(spore_object_text(emitter, "source"), ==, "near");
   g_assert_cmpuint(said_of(&scene, "steam"), ==, 0);
   g_assert_null(spore_fluid_find("bleding"));
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* A shorter step needs fewer substeps, and one that is short enough none of its own. */
@@ -170,12 +154,12 @@ static void test_substeps(void) {
   static const char *const steps[] = {"0.004", "0.002", "0.0001"};
   double substeps[3];
   for (gsize i = 0; i < 3; i++) {
-    Scene scene = scene_new();
+    FixtureScene scene = fixture_scene_new(organs);
     g_assert_true(spore_document_set_text(scene.document, spore_document_section(scene.document, "solver"), "time_step",
                                           steps[i], NULL));
     SporeObject *body = add(&scene, "pool", on_wall);
     substeps[i] = spore_object_number(spore_object_child_of(body, "mechanical"), "substeps");
-    scene_free(&scene);
+    fixture_scene_free(&scene);
   }
   g_assert_cmpfloat(substeps[1], >, 1);
   g_assert_cmpfloat(substeps[0], >, 1.8 * substeps[1]);

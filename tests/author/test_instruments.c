@@ -16,23 +16,7 @@ static const char blocks[] =
     "<body name=\"wall\" role=\"unmovable\" position=\"0 0.05 0\"><visual mesh=\"cube\"/></body>"
     "</bodies></spore>\n";
 
-typedef struct Scene {
-  char *folder;
-  SporeDocument *document;
-} Scene;
-
-static Scene scene_new(void) {
-  Scene scene = {.folder = fixture_scene_folder_new(blocks)};
-  scene.document = fixture_load(scene.folder);
-  return scene;
-}
-
-static void scene_free(Scene *scene) {
-  spore_document_free(scene->document);
-  fixture_folder_free(scene->folder);
-}
-
-static SporeObject *add(const Scene *scene, const char *kind, const SporeVec3 *entry, const SporeVec3 *target) {
+static SporeObject *add(const FixtureScene *scene, const char *kind, const SporeVec3 *entry, const SporeVec3 *target) {
   g_autoptr(GError) error = NULL;
   SporeObject *body = spore_edit_add_instrument(scene->document, spore_instrument_find(kind), NULL,
                                                 (SporeInstrumentPlaces){entry, target}, &error);
@@ -122,7 +106,7 @@ static void assert_outline(const SporeObject *body, const SporeInstrumentKind *k
 }
 
 static void test_stands(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   for (const SporeInstrumentKind *one = spore_instruments; one->name; one++)
     for (gsize i = 0; i < G_N_ELEMENTS(entries); i++) {
       g_autofree char *before = fixture_format(scene.document);
@@ -136,10 +120,10 @@ static void test_stands(void) {
       g_autofree char *after = fixture_format(scene.document);
       g_assert_cmpstr(after, ==, before);
     }
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
-static SporeObject *tool_of(const Scene *scene, const SporeObject *body) {
+static SporeObject *tool_of(const FixtureScene *scene, const SporeObject *body) {
   SporeObject *tools = spore_document_section(scene->document, "tools");
   for (guint i = 0; i < spore_object_child_count(tools); i++) {
     SporeObject *tool = spore_object_child(tools, i);
@@ -150,7 +134,8 @@ static SporeObject *tool_of(const Scene *scene, const SporeObject *body) {
   return NULL;
 }
 
-static void assert_port(const Scene *scene, const SporeObject *body, const SporeInstrumentKind *kind, SporeVec3 entry) {
+static void assert_port(const FixtureScene *scene, const SporeObject *body, const SporeInstrumentKind *kind,
+                        SporeVec3 entry) {
   const SporeObject *links = spore_document_section(scene->document, "links");
   g_assert_cmpuint(spore_object_child_count(links), ==, kind->head == SPORE_HEAD_ARC ? 0 : 1);
   if (kind->head == SPORE_HEAD_ARC) return;
@@ -161,7 +146,7 @@ static void assert_port(const Scene *scene, const SporeObject *body, const Spore
 
 /* Each one has a tool of its kind that the mouse moves, is drawn as a mesh, goes through its port, and runs. */
 static void test_runs(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   for (const SporeInstrumentKind *one = spore_instruments; one->name; one++) {
     SporeObject *body = add(&scene, one->name, &entries[4], &targets[4]);
     const SporeObject *tool = tool_of(&scene, body);
@@ -179,12 +164,12 @@ static void test_runs(void) {
     spore_simulation_free(simulation);
     spore_document_undo(scene.document);
   }
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* Where nothing is said: above the highest point; at what physics moves, be something else nearer; straight down. */
 static void test_defaults(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   g_assert_cmpfloat_with_epsilon(tip_of(add(&scene, "grasper", NULL, NULL), "grasper").y, 0.11, ROUNDED);
   g_assert_cmpuint(spore_object_child_count(spore_document_section(scene.document, "links")), ==, 0);
   SporeVec3 entry = {0.1, 0.4, 0.1}, corner = {0.05, 0.05, 0.05};
@@ -198,11 +183,11 @@ static void test_defaults(void) {
   SporeCameraFields fields;
   spore_object_fields(camera, &fields);
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_camera_sight(&fields), corner), 0, ROUNDED);
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* The pose of the instrument after a device has led it 30 mm aside. */
-static SporePose led_aside(const Scene *scene, SporeObject *body) {
+static SporePose led_aside(const FixtureScene *scene, SporeObject *body) {
   SporePose pose = spore_body_pose(body);
   SporeTrack track = {0};
   SporeTrackChannel *channel = spore_track_add_channel(&track, spore_object_name(body));
@@ -225,7 +210,7 @@ static SporePose led_aside(const Scene *scene, SporeObject *body) {
 
 /* Led aside, the shaft turns about the place where it enters; one without an entry does not turn. */
 static void test_port(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   const SporeVec3 up = {0, 1, 0};
   SporePose pose = led_aside(&scene, add(&scene, "grasper", &entries[0], &targets[0]));
   SporeVec3 shaft = spore_quat_rotate(pose.orientation, up);
@@ -233,16 +218,16 @@ static void test_port(void) {
   g_assert_cmpfloat_with_epsilon(off_line(pose.position, entries[0], shaft), 0, ROUNDED);
   SporePose loose = led_aside(&scene, add(&scene, "grasper", NULL, NULL));
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_quat_rotate(loose.orientation, up), up), 0, 1e-9);
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
-static guint asset_count(const Scene *scene) {
+static guint asset_count(const FixtureScene *scene) {
   return spore_object_child_count(spore_document_section(scene->document, "assets"));
 }
 
 /* The second one of a kind has its own name, and the meshes, spheres and mouse of the first. */
 static void test_names(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   SporeObject *first = add(&scene, "clamp", &entries[0], &targets[0]);
   guint assets = asset_count(&scene);
   SporeObject *second = add(&scene, "clamp", &entries[0], &targets[0]);
@@ -251,12 +236,12 @@ static void test_names(void) {
   g_assert_cmpstr(spore_object_name(tool_of(&scene, second)), ==, "clamp_2");
   g_assert_cmpuint(asset_count(&scene), ==, assets);
   g_assert_cmpuint(spore_object_child_count(spore_document_section(scene.document, "devices")), ==, 1);
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* As near as may be, and a little nearer. */
 static void test_refusals(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   SporeVec3 target = {0.05, 0.1, 0.05}, near = {0.05, 0.1278, 0.05}, enough = {0.05, 0.1282, 0.05};
   GError *error = NULL;
   g_assert_null(spore_edit_add_instrument(scene.document, spore_instrument_find("grasper"), NULL,
@@ -270,7 +255,7 @@ static void test_refusals(void) {
   SporeVec3 tip = tip_of(add(&scene, "grasper", &enough, &target), "grasper");
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(tip, target), 0.0051, ROUNDED);
   g_assert_null(spore_instrument_find("graspr"));
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 int main(int argc, char **argv) {

@@ -20,28 +20,12 @@ static const char organs[] =
     "<spring name=\"cord\" body_a=\"ovary_left\" point_a=\"0.3 0.1 0\" body_b=\"wall\" point_b=\"0 0 0\"/>"
     "</links></spore>\n";
 
-typedef struct Scene {
-  char *folder;
-  SporeDocument *document;
-} Scene;
-
-static Scene scene_new(void) {
-  Scene scene = {.folder = fixture_scene_folder_new(organs)};
-  scene.document = fixture_load(scene.folder);
-  return scene;
-}
-
-static void scene_free(Scene *scene) {
-  spore_document_free(scene->document);
-  fixture_folder_free(scene->folder);
-}
-
 static SporeVec3 vector(const SporeObject *object, const char *property) {
   int index = spore_parameter_find(spore_object_type(object)->table, property);
   return spore_vec3_load(spore_object_value(object, (guint)index)->number);
 }
 
-static SporeVec3 vertex(const Scene *scene, const SporeObject *body, gsize i) {
+static SporeVec3 vertex(const FixtureScene *scene, const SporeObject *body, gsize i) {
   SporeObject *asset = spore_object_reference(spore_object_child_of(body, "visual"), "mesh");
   const SporeTriangleMesh *mesh = spore_document_mesh(scene->document, asset, NULL);
   return spore_pose_apply(spore_body_pose(body), spore_vec3_load(mesh->vertices + 3 * i));
@@ -50,7 +34,7 @@ static SporeVec3 vertex(const Scene *scene, const SporeObject *body, gsize i) {
 /* About every axis, each vertex in the scene is the image of its original, and no mesh or cell is inside out. */
 static void test_image(void) {
   for (int axis = 0; axis < 3; axis++) {
-    Scene scene = scene_new();
+    FixtureScene scene = fixture_scene_new(organs);
     g_autofree char *before = fixture_format(scene.document);
     g_autoptr(GError) error = NULL;
     SporeObject *body = spore_document_find(scene.document, "body", "ovary_left");
@@ -81,13 +65,13 @@ static void test_image(void) {
     spore_document_undo(scene.document);
     g_autofree char *after = fixture_format(scene.document);
     g_assert_cmpstr(after, ==, before);
-    scene_free(&scene);
+    fixture_scene_free(&scene);
   }
 }
 
 /* The middle of what no device moves; an instrument is refused. */
 static void test_middle(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(organs);
   GError *error = NULL;
   double lower[3], upper[3];
   spore_body_box(scene.document, spore_document_find(scene.document, "body", "ovary_left"), lower, upper);
@@ -96,7 +80,7 @@ static void test_middle(void) {
   g_assert_null(spore_edit_mirror(scene.document, probe, 0, 0, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "add another one from the library");
   g_assert_false(spore_document_can_undo(scene.document));
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 int main(int argc, char **argv) {

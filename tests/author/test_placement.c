@@ -20,36 +20,20 @@ static const char blocks[] =
     "<effects><emitter name=\"wound\" body=\"two\" source=\"one\" point=\"0 0 0.05\" direction=\"0 0 1\"/></effects>"
     "<tools><camera name=\"view\" position=\"0 0 1\"/></tools></spore>\n";
 
-typedef struct Scene {
-  char *folder;
-  SporeDocument *document;
-} Scene;
-
-static Scene scene_new(void) {
-  Scene scene = {.folder = fixture_scene_folder_new(blocks)};
-  scene.document = fixture_load(scene.folder);
-  return scene;
-}
-
-static void scene_free(Scene *scene) {
-  spore_document_free(scene->document);
-  fixture_folder_free(scene->folder);
-}
-
-static SporePlacement *placement_of(const Scene *scene, const char *first, const char *second) {
+static SporePlacement *placement_of(const FixtureScene *scene, const char *first, const char *second) {
   g_autoptr(GPtrArray) bodies = g_ptr_array_new();
   g_ptr_array_add(bodies, spore_document_find(scene->document, "body", first));
   if (second) g_ptr_array_add(bodies, spore_document_find(scene->document, "body", second));
   return spore_placement_new(scene->document, bodies);
 }
 
-static SporeVec3 vector(const Scene *scene, const char *path, const char *property) {
+static SporeVec3 vector(const FixtureScene *scene, const char *path, const char *property) {
   const SporeObject *object = spore_document_by_path(scene->document, path);
   int index = spore_parameter_find(spore_object_type(object)->table, property);
   return spore_vec3_load(spore_object_value(object, (guint)index)->number);
 }
 
-static void assert_at(const Scene *scene, const char *path, const char *property, double x, double y, double z) {
+static void assert_at(const FixtureScene *scene, const char *path, const char *property, double x, double y, double z) {
   SporeVec3 at = vector(scene, path, property);
   if (spore_vec3_distance(at, spore_vec3(x, y, z)) > 2e-6)
     g_error("%s %s is %g %g %g, expected %g %g %g", path, property, at.x, at.y, at.z, x, y, z);
@@ -62,7 +46,7 @@ static void move(SporePlacement *placement, SporePose motion) {
 }
 
 static void test_moves(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   g_autofree char *before = fixture_format(scene.document);
   SporePose motion = {{0.01, 0.02, 0.0333333}, {1, 0, 0, 0}};
   spore_document_begin(scene.document, "Move");
@@ -84,12 +68,12 @@ static void test_moves(void) {
   spore_document_undo(scene.document);
   g_autofree char *after = fixture_format(scene.document);
   g_assert_cmpstr(after, ==, before);
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* A quarter of a turn about z through the middle of both blocks, and back to where they were. */
 static void test_turns(void) {
-  Scene scene = scene_new();
+  FixtureScene scene = fixture_scene_new(blocks);
   g_autofree char *before = fixture_format(scene.document);
   g_autoptr(SporePlacement) placement = placement_of(&scene, "one", "two");
   SporeVec3 middle = spore_placement_middle(placement);
@@ -112,7 +96,7 @@ static void test_turns(void) {
   spore_document_undo(scene.document);
   g_autofree char *after = fixture_format(scene.document);
   g_assert_cmpstr(after, ==, before);
-  scene_free(&scene);
+  fixture_scene_free(&scene);
 }
 
 /* An instrument goes with its jaws, its hinge and its port, whichever part is taken. */
@@ -120,7 +104,7 @@ static void test_instrument(void) {
   const SporeVec3 entry = {0, 0.3, 0}, target = {0, 0.05, 0};
   static const char *const taken[] = {"grasper_1", "grasper_1_jaw_b"};
   for (gsize i = 0; i < 2; i++) {
-    Scene scene = scene_new();
+    FixtureScene scene = fixture_scene_new(blocks);
     g_assert_nonnull(spore_edit_add_instrument(scene.document, spore_instrument_find("grasper"), NULL,
                                                (SporeInstrumentPlaces){&entry, &target}, NULL));
     SporeVec3 hinge = vector(&scene, "tools/grasper_1", "hinge"),
@@ -131,13 +115,13 @@ static void test_instrument(void) {
     assert_at(&scene, "bodies/grasper_1_jaw_a", "position", jaw.x + 0.1, jaw.y, jaw.z);
     assert_at(&scene, "links/grasper_1_port", "point", 0.1, 0.3, 0);
     assert_at(&scene, "bodies/one", "position", 0, 0, 0);
-    scene_free(&scene);
+    fixture_scene_free(&scene);
   }
 }
 
 static void test_align(void) {
   for (int axis = 0; axis < 2; axis++) {
-    Scene scene = scene_new();
+    FixtureScene scene = fixture_scene_new(blocks);
     GError *error = NULL;
     g_autoptr(GPtrArray) bodies = g_ptr_array_new();
     g_ptr_array_add(bodies, spore_document_find(scene.document, "body", axis ? "two" : "one"));
@@ -152,7 +136,7 @@ static void test_align(void) {
     assert_at(&scene, "bodies/wall", "position", x, y, 0.1);
     spore_document_undo(scene.document);
     assert_at(&scene, "bodies/wall", "position", 0, 0.3, 0.1);
-    scene_free(&scene);
+    fixture_scene_free(&scene);
   }
 }
 

@@ -118,6 +118,17 @@ void fixture_folder_free(char *folder) {
   g_free(folder);
 }
 
+FixtureScene fixture_scene_new(const char *text) {
+  FixtureScene scene = {.folder = fixture_scene_folder_new(text)};
+  scene.document = fixture_load(scene.folder);
+  return scene;
+}
+
+void fixture_scene_free(FixtureScene *scene) {
+  spore_document_free(scene->document);
+  fixture_folder_free(scene->folder);
+}
+
 char *fixture_write(const char *folder, const char *name, const char *text) {
   GError *error = NULL;
   char *path = g_build_filename(folder, name, NULL);

@@ -15,6 +15,13 @@ const SporeSchema *fixture_model_schema(void);
  * (two, one of them 0.3 m off), and scene.spore with the text; and that scene, which must be good. */
 char *fixture_scene_folder_new(const char *scene);
 SporeDocument *fixture_load(const char *folder);
+/* Such a folder and its scene. */
+typedef struct FixtureScene {
+  char *folder;
+  SporeDocument *document;
+} FixtureScene;
+FixtureScene fixture_scene_new(const char *text);
+void fixture_scene_free(FixtureScene *scene);
 
 /* A new folder; removed with everything in it. */
 char *fixture_folder_new(void);
