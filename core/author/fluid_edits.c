@@ -78,6 +78,8 @@ static gboolean place_on_organ(Addition *addition, SporeObject *organ, SporeVec3
   SporeSurfacePlace place;
   if (!spore_surface_nearest(addition->document, organ, at, &place))
     return refuse(addition, _("nothing here shows a surface; click on an organ"), error);
+  if (spore_vec3_distance(place.at, at) > place.size)
+    return refuse(addition, _("no organ is near the place; give one on an organ, in metres"), error);
   if (addition->kind->mouth == SPORE_MOUTH_TISSUE && !can_be_cut(place.body))
     return refuse(addition, _("the organ cannot be cut; make it soft first, or choose bleeding from the start"), error);
   addition->spacing = SPACING;

@@ -53,13 +53,14 @@ static const SporeModelParticles *particles_of(const SporeObject *body) {
   return model ? spore_object_type(model)->model->particles : NULL;
 }
 
-/* Adds the collision spheres of a body's model. Only the world knows their places. */
+/* Adds the collision spheres of a body's model that are in the world. Only the world knows their places. */
 static void place_own_spheres(Start *start, SporeObject *body, guint index, const SporeSimulation *simulation) {
   const SporeSpheres *spheres = spore_world_spheres(simulation->world);
   guint32 owner = spore_simulation_body_of(simulation, body);
   for (size_t i = 0; i < spheres->count; i++) {
-    if (spheres->body[i] != owner) continue;
-    Ball ball = {spore_vec3_load(spheres->centre + 3 * i), spheres->radius[i], index};
+    const double *centre = spheres->centre + 3 * i;
+    if (spheres->body[i] != owner || (particles_of(body) && spore_particle_is_out(centre))) continue;
+    Ball ball = {spore_vec3_load(centre), spheres->radius[i], index};
     g_array_append_val(start->balls, ball);
   }
 }

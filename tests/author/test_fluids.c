@@ -84,6 +84,23 @@ static void test_flows(void) {
   }
 }
 
+/* Two that are kept back are not in each other's way, one that is poured into a wall is; far off there is no organ. */
+static void test_two(void) {
+  FixtureScene scene = fixture_scene_new(organs);
+  GError *error = NULL;
+  add(&scene, "bleeding", on_wall);
+  add(&scene, "bleeding", on_wall);
+  g_assert_cmpuint(said_of(&scene, "overlap"), ==, 0);
+  SporeObject *poured = add(&scene, "pool", on_wall);
+  g_assert_cmpuint(said_of(&scene, "overlap"), ==, 0);
+  g_assert_true(spore_document_set_text(scene.document, poured, "position", "0.5 0.05 0", NULL));
+  g_assert_cmpuint(said_of(&scene, "overlap"), >, 0);
+  g_assert_null(
+      spore_edit_add_fluid(scene.document, spore_fluid_find("pool"), NULL, NULL, (SporeVec3){9, 9, 9}, &error));
+  fixture_assert_error(error, SPORE_ERROR_INPUT, "no organ is near");
+  fixture_scene_free(&scene);
+}
+
 /* A wound is dry until it is cut; what cannot be cut has none. */
 static void test_wound(void) {
   FixtureScene scene = fixture_scene_new(organs);
@@ -169,6 +186,7 @@ static void test_substeps(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/fluids/flows", test_flows);
+  g_test_add_func("/fluids/two", test_two);
   g_test_add_func("/fluids/wound", test_wound);
   g_test_add_func("/fluids/pool", test_pool);
   g_test_add_func("/fluids/coagulation", test_coagulation);
