@@ -162,11 +162,6 @@ gboolean spore_edit_tie_link(SporeDocument *document, SporeObject *link, const S
   return spore_edit_finish(document, write_ends(document, link, ends, count, error));
 }
 
-static SporeVec3 vector_of(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 guint spore_link_places(SporeDocument *document, const SporeObject *link, SporeVec3 places[SPORE_LINK_MOST_ENDS]) {
   const SporeObjectType *type = spore_object_type(link);
   guint count = spore_link_end_count(type);
@@ -174,7 +169,7 @@ guint spore_link_places(SporeDocument *document, const SporeObject *link, SporeV
   for (guint end = 0; end < count; end++) {
     SporeObject *body = spore_object_reference(link, body_of_end(type, end)->name);
     if (end == 0 && !body) return 0;
-    if (found) places[end] = vector_of(link, !apart ? "point" : end ? "point_b" : "point_a");
+    if (found) places[end] = spore_object_vector(link, !apart ? "point" : end ? "point_b" : "point_a");
     else if (!middle_of(document, body, &places[end])) return 0;
   }
   return count;

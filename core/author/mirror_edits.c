@@ -170,26 +170,22 @@ static gboolean copy_children(const Mirror *mirror, const SporeObject *from, Spo
   return TRUE;
 }
 
-static SporeVec3 vector_of(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 static gboolean set_vector(const Mirror *mirror, SporeObject *object, const char *property, SporeVec3 v,
                            GError **error) {
   SporeValue value = {.type = SPORE_VECTOR};
   spore_vec3_store(value.number, v);
   int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_distance(vector_of(object, property), v) == 0 ||
+  return spore_vec3_distance(spore_object_vector(object, property), v) == 0 ||
          spore_document_set(mirror->document, object, (guint)index, &value, error);
 }
 
 static gboolean place_copy(const Mirror *mirror, GError **error) {
   const SporeObject *body = mirror->body;
-  return set_vector(mirror, mirror->copy, "position", image(mirror, vector_of(body, "position")), error) &&
-         set_vector(mirror, mirror->copy, "rotation", flipped_turn(mirror, vector_of(body, "rotation")), error) &&
-         set_vector(mirror, mirror->copy, "velocity", flipped(mirror, vector_of(body, "velocity")), error) &&
-         set_vector(mirror, mirror->copy, "spin", flipped_turn(mirror, vector_of(body, "spin")), error);
+  return set_vector(mirror, mirror->copy, "position", image(mirror, spore_object_vector(body, "position")), error) &&
+         set_vector(mirror, mirror->copy, "rotation", flipped_turn(mirror, spore_object_vector(body, "rotation")),
+                    error) &&
+         set_vector(mirror, mirror->copy, "velocity", flipped(mirror, spore_object_vector(body, "velocity")), error) &&
+         set_vector(mirror, mirror->copy, "spin", flipped_turn(mirror, spore_object_vector(body, "spin")), error);
 }
 
 /* Links. */

@@ -21,22 +21,18 @@ static SporeVec3 moved_place(const Move *move, SporeVec3 p) {
   return spore_vec3_add(aim, spore_quat_rotate(move->turn, spore_vec3_sub(p, aim)));
 }
 
-static SporeVec3 vector_of(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 static gboolean has(const SporeObject *object, const char *property) {
   return spore_parameter_find(spore_object_type(object)->table, property) >= 0;
 }
 
 static gboolean move_place(const Move *move, SporeObject *object, const char *property, GError **error) {
-  return spore_edit_set_vector(move->document, object, property, moved_place(move, vector_of(object, property)), error);
+  return spore_edit_set_vector(move->document, object, property,
+                               moved_place(move, spore_object_vector(object, property)), error);
 }
 
 static gboolean turn_direction(const Move *move, SporeObject *object, const char *property, GError **error) {
   return spore_edit_set_vector(move->document, object, property,
-                               spore_quat_rotate(move->turn, vector_of(object, property)), error);
+                               spore_quat_rotate(move->turn, spore_object_vector(object, property)), error);
 }
 
 static gboolean move_body(const Move *move, SporeObject *body, GError **error) {
@@ -65,8 +61,8 @@ static gboolean move_tool(const Move *move, SporeObject *tool, GError **error) {
 
 /* The camera looks aside in the scene's axes, so that its turn is another after it has moved. */
 static gboolean move_camera(const Move *move, SporeObject *camera, GError **error) {
-  SporeVec3 position = moved_place(move, vector_of(camera, "position"));
-  SporeVec3 target = moved_place(move, vector_of(camera, "target"));
+  SporeVec3 position = moved_place(move, spore_object_vector(camera, "position"));
+  SporeVec3 target = moved_place(move, spore_object_vector(camera, "target"));
   char text[G_ASCII_DTOSTR_BUF_SIZE];
   if (!spore_edit_set_vector(move->document, camera, "position", position, error) ||
       !spore_edit_set_vector(move->document, camera, "target", target, error))

@@ -47,6 +47,7 @@ int spore_object_column(const SporeObject *object);
 const SporeValue *spore_object_value(const SporeObject *object, guint property);
 gboolean spore_object_is_set(const SporeObject *object, guint property);
 double spore_object_number(const SporeObject *object, const char *property);    /* by name, which must exist */
+SporeVec3 spore_object_vector(const SporeObject *object, const char *property); /* of a vector, likewise */
 const char *spore_object_text(const SporeObject *object, const char *property); /* NULL when neither set nor default */
 /* The tissue that gives a model's unset properties their values; NULL: none. */
 const SporeTissue *spore_object_tissue(const SporeObject *model);

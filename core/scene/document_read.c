@@ -164,6 +164,10 @@ double spore_object_number(const SporeObject *object, const char *property) {
   return value_by_name(object, property)->number[0];
 }
 
+SporeVec3 spore_object_vector(const SporeObject *object, const char *property) {
+  return spore_vec3_load(value_by_name(object, property)->number);
+}
+
 const char *spore_object_text(const SporeObject *object, const char *property) {
   return value_by_name(object, property)->text;
 }

@@ -11,11 +11,6 @@
 
 #define LEAST_WAY_M 0.01 /* from the port to what the instrument aims at */
 
-static SporeVec3 vector_of(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 static gboolean is_element(const SporeObject *object, const char *element) {
   return g_str_equal(spore_object_type(object)->element, element);
 }
@@ -72,15 +67,15 @@ static void find_tip(SporeDocument *document, SporePortReach *reach) {
 static SporeVec3 sight_of(const SporeObject *camera) {
   SporeCameraFields fields = {.angle = spore_object_number(camera, "angle"),
                               .turn = spore_object_number(camera, "turn")};
-  spore_vec3_store(fields.position, vector_of(camera, "position"));
-  spore_vec3_store(fields.target, vector_of(camera, "target"));
+  spore_vec3_store(fields.position, spore_object_vector(camera, "position"));
+  spore_vec3_store(fields.target, spore_object_vector(camera, "target"));
   return spore_camera_sight(&fields);
 }
 
 gboolean spore_port_reach(SporeDocument *document, SporeObject *port, SporePortReach *reach) {
   SporeObject *body = is_element(port, "port") ? spore_object_reference(port, "body_a") : NULL;
   if (!body || (SporeRole)spore_object_number(body, "role") != SPORE_ACTIVE) return FALSE;
-  SporeVec3 direction = vector_of(port, "direction");
+  SporeVec3 direction = spore_object_vector(port, "direction");
   if (!(spore_vec3_length(direction) > 0)) return FALSE;
   SporeObject *camera = find_tool(document, body, TRUE), *tool = find_tool(document, body, FALSE);
   *reach = (SporePortReach){.port = port,
@@ -88,7 +83,7 @@ gboolean spore_port_reach(SporeDocument *document, SporeObject *port, SporePortR
                             .tool = tool     ? tool
                                     : camera ? camera
                                              : body,
-                            .pivot = vector_of(port, "point"),
+                            .pivot = spore_object_vector(port, "point"),
                             .along = spore_vec3_scale(1 / spore_vec3_length(direction), direction),
                             .angle = SPORE_PORT_ANGLE_RAD,
                             .shallowest = SPORE_PORT_SHALLOWEST_M,

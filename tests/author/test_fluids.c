@@ -27,11 +27,6 @@ static SporeObject *add(const FixtureScene *scene, const char *kind, SporeVec3 p
   return added;
 }
 
-static SporeVec3 vector(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 /* How many diagnostics name the object, or a part of it. */
 static guint said_of(const FixtureScene *scene, const char *name) {
   g_autoptr(GPtrArray) found = spore_document_check(scene->document, NULL);
@@ -66,9 +61,9 @@ static void test_flows(void) {
     FixtureScene scene = fixture_scene_new(organs);
     g_autofree char *before = fixture_format(scene.document);
     SporeObject *emitter = add(&scene, kinds[i % 2][0], places[i / 2]);
-    SporeVec3 point = vector(emitter, "point");
+    SporeVec3 point = spore_object_vector(emitter, "point");
     g_assert_cmpstr(spore_object_text(emitter, "source"), ==, i / 2 ? "wall" : "organ");
-    g_assert_cmpfloat_with_epsilon(vector(emitter, "direction").y, 1, 1e-3);
+    g_assert_cmpfloat_with_epsilon(spore_object_vector(emitter, "direction").y, 1, 1e-3);
     g_assert_cmpfloat_with_epsilon(point.x, places[i / 2].x, 1e-3);
     g_assert_cmpfloat(point.y, >, 0.05);
     g_assert_cmpfloat(point.y, <, 0.06);
@@ -123,7 +118,7 @@ static void test_wound(void) {
 static void test_pool(void) {
   FixtureScene scene = fixture_scene_new(organs);
   gsize all, less, at_end;
-  SporeVec3 middle = vector(add(&scene, "pool", on_wall), "position");
+  SporeVec3 middle = spore_object_vector(add(&scene, "pool", on_wall), "position");
   g_assert_cmpfloat_with_epsilon(middle.x, on_wall.x, 1e-3);
   g_assert_cmpfloat(middle.y, >, 0.06);
   g_assert_cmpuint(said_of(&scene, "blood"), ==, 0);

@@ -24,11 +24,6 @@ static SporeObject *add(const FixtureScene *scene, const char *kind, const Spore
   return body;
 }
 
-static SporeVec3 vector(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 static SporeVec3 tip_of(const SporeObject *body, const char *kind) {
   return spore_pose_apply(spore_body_pose(body), spore_instrument_tip(spore_instrument_find(kind)));
 }
@@ -141,7 +136,7 @@ static void assert_port(const FixtureScene *scene, const SporeObject *body, cons
   if (kind->head == SPORE_HEAD_ARC) return;
   const SporeObject *port = spore_object_child(links, 0);
   g_assert_true(spore_object_refers_to(port, body));
-  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(vector(port, "point"), entry), 0, ROUNDED);
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_object_vector(port, "point"), entry), 0, ROUNDED);
 }
 
 /* Each one has a tool of its kind that the mouse moves, is drawn as a mesh, goes through its port, and runs. */

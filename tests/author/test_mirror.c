@@ -20,11 +20,6 @@ static const char organs[] =
     "<spring name=\"cord\" body_a=\"ovary_left\" point_a=\"0.3 0.1 0\" body_b=\"wall\" point_b=\"0 0 0\"/>"
     "</links></spore>\n";
 
-static SporeVec3 vector(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 static SporeVec3 vertex(const FixtureScene *scene, const SporeObject *body, gsize i) {
   SporeObject *asset = spore_object_reference(spore_object_child_of(body, "visual"), "mesh");
   const SporeTriangleMesh *mesh = spore_document_mesh(scene->document, asset, NULL);
@@ -50,14 +45,14 @@ static void test_image(void) {
     SporeObject *pin = spore_document_find(scene.document, "pin", "hold_right");
     g_assert_cmpstr(spore_object_text(pin, "body"), ==, "ovary_right");
     if (axis == 0) {
-      g_assert_cmpfloat_with_epsilon(vector(pin, "point").x, -0.21, 1e-12);
-      g_assert_cmpfloat(vector(copy, "velocity").x, ==, -1);
-      g_assert_cmpfloat(vector(copy, "spin").x, ==, 1);
-      g_assert_cmpfloat(vector(copy, "spin").y, ==, -2);
+      g_assert_cmpfloat_with_epsilon(spore_object_vector(pin, "point").x, -0.21, 1e-12);
+      g_assert_cmpfloat(spore_object_vector(copy, "velocity").x, ==, -1);
+      g_assert_cmpfloat(spore_object_vector(copy, "spin").x, ==, 1);
+      g_assert_cmpfloat(spore_object_vector(copy, "spin").y, ==, -2);
       SporeObject *region = spore_object_child(spore_object_child_of(copy, "regions"), 0);
-      g_assert_cmpfloat(vector(region, "centre").x, ==, -0.01);
+      g_assert_cmpfloat(spore_object_vector(region, "centre").x, ==, -0.01);
     }
-    g_assert_cmpfloat(vector(spore_object_child_of(copy, "visual"), "colour").x, ==, 0.1);
+    g_assert_cmpfloat(spore_object_vector(spore_object_child_of(copy, "visual"), "colour").x, ==, 0.1);
     g_assert_cmpfloat(spore_object_number(spore_body_model_object(copy), "young_modulus"), ==, 4000);
     g_assert_cmpuint(spore_object_child_count(spore_document_section(scene.document, "links")), ==, 3);
     g_autoptr(SporeSimulation) simulation = spore_simulation_new(scene.document, NULL, NULL, NULL, &error);

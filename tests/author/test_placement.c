@@ -28,9 +28,7 @@ static SporePlacement *placement_of(const FixtureScene *scene, const char *first
 }
 
 static SporeVec3 vector(const FixtureScene *scene, const char *path, const char *property) {
-  const SporeObject *object = spore_document_by_path(scene->document, path);
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
+  return spore_object_vector(spore_document_by_path(scene->document, path), property);
 }
 
 static void assert_at(const FixtureScene *scene, const char *path, const char *property, double x, double y, double z) {

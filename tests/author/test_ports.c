@@ -45,11 +45,6 @@ static SporePortReach reach_of(const Scene *scene) {
   return reach;
 }
 
-static SporeVec3 vector(const SporeObject *object, const char *property) {
-  int index = spore_parameter_find(spore_object_type(object)->table, property);
-  return spore_vec3_load(spore_object_value(object, (guint)index)->number);
-}
-
 #define assert_near(a, b) g_assert_cmpfloat(spore_vec3_distance(a, b), <, ROUNDED)
 
 /* The cone ends at its angle, and at its least and greatest depth. */
@@ -140,13 +135,14 @@ static void test_move(void) {
   g_autofree char *before = fixture_format(scene.document);
   g_assert_true(spore_edit_move_port(scene.document, scene.port, to, &error));
   g_assert_no_error(error);
-  assert_near(vector(scene.port, "point"), to);
+  assert_near(spore_object_vector(scene.port, "point"), to);
   g_assert_cmpfloat(off_shaft(&scene, to), <, ROUNDED);
   assert_near(reach_of(&scene).tip, tip);
-  assert_near(vector(tool, "hinge"), spore_body_pose(scene.body).position);
+  assert_near(spore_object_vector(tool, "hinge"), spore_body_pose(scene.body).position);
   assert_near(spore_body_pose(jaw).position, spore_body_pose(scene.body).position);
-  assert_near(vector(tool, "axis"), spore_quat_rotate(spore_body_pose(scene.body).orientation, (SporeVec3){1, 0, 0}));
-  assert_near(vector(scene.port, "direction"),
+  assert_near(spore_object_vector(tool, "axis"),
+              spore_quat_rotate(spore_body_pose(scene.body).orientation, (SporeVec3){1, 0, 0}));
+  assert_near(spore_object_vector(scene.port, "direction"),
               spore_quat_rotate(spore_body_pose(scene.body).orientation, (SporeVec3){0, 1, 0}));
   spore_document_undo(scene.document);
   g_autofree char *after = fixture_format(scene.document);
@@ -157,8 +153,8 @@ static void test_move(void) {
 static SporeVec3 sight_of(const SporeObject *camera) {
   SporeCameraFields fields = {.angle = spore_object_number(camera, "angle"),
                               .turn = spore_object_number(camera, "turn")};
-  spore_vec3_store(fields.position, vector(camera, "position"));
-  spore_vec3_store(fields.target, vector(camera, "target"));
+  spore_vec3_store(fields.position, spore_object_vector(camera, "position"));
+  spore_vec3_store(fields.target, spore_object_vector(camera, "target"));
   return spore_camera_sight(&fields);
 }
 
@@ -174,7 +170,7 @@ static void test_move_endoscope(void) {
     g_assert_true(spore_edit_move_port(scene.document, scene.port, to, &error));
     g_assert_no_error(error);
     assert_near(sight_of(camera), target);
-    assert_near(vector(camera, "position"), spore_body_pose(scene.body).position);
+    assert_near(spore_object_vector(camera, "position"), spore_body_pose(scene.body).position);
     g_assert_cmpfloat(off_shaft(&scene, to), <, ROUNDED);
     scene_free(&scene);
   }

@@ -12,8 +12,8 @@
 
 #define BESIDE 1e-4 /* of the diagonal: distance from the surface at which its two sides are tested */
 #define FEW 0.02    /* share of a piece's points that is let pass */
-#define HOLDS                                                                                                          \
-  0.002 /* volume over area^1.5 of an open piece that holds something: .02 of a tube 50 widths long, 0 flat */
+/* Volume over area^1.5 of an open piece that holds something: .02 of a tube 50 widths long, 0 of a flat one. */
+#define HOLDS 0.002
 
 #define THIN 0.1 /* of a piece's least extent: a wall no farther inside than this is a second wall */
 
@@ -79,11 +79,14 @@ static size_t find_around(const Look *looks, size_t count, size_t own, bool all,
   return most;
 }
 
-/* Whether a piece with holes, which has solid on one side of it, lies wholly inside another one. */
-static bool is_open_within(const Look *looks, size_t count, size_t own, const SporeTetrahedraPiece *told) {
+/* Whether a piece with holes, which has solid on one side of it, lies wholly inside another one, which is then told. */
+static bool is_open_within(const Look *looks, size_t count, size_t own, SporeTetrahedraPiece *told) {
+  const size_t few = (size_t)(FEW * SPORE_PIECE_SAMPLES);
   SporeTetrahedraPiece found = *told;
-  if (!looks[own].piece->holes) return false;
-  return find_around(looks, count, own, true, &found) + (size_t)(FEW * SPORE_PIECE_SAMPLES) >= SPORE_PIECE_SAMPLES;
+  if (!looks[own].piece->holes || find_around(looks, count, own, true, &found) + few < SPORE_PIECE_SAMPLES)
+    return false;
+  *told = found;
+  return true;
 }
 
 /* Whether an open piece inside another one cuts what it holds out of the solid: one that is flat holds nothing, though
@@ -138,7 +141,7 @@ static bool look_at(SporeTetrahedraWork *work, Look *looks, SporeError *error) {
     const bool open = told->role != SPORE_PIECE_INSIDE && is_open_within(looks, count, i, told);
     if (told->role == SPORE_PIECE_BOUNDS && !open) continue;
     const bool all = told->role == SPORE_PIECE_CAVITY || open;
-    find_around(looks, count, i, all, told);
+    if (!open) find_around(looks, count, i, all, told);
     if (open) told->wall = cuts_out(looks + i) ? SPORE_WALL_LUMEN : SPORE_WALL_OPEN;
     if (told->wall == SPORE_WALL_OPEN) told->role = SPORE_PIECE_INSIDE;
     if (told->wall == SPORE_WALL_NONE) told->wall = wall_of(looks + i, told, work->options.hollow);
