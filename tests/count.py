@@ -8,6 +8,8 @@ import sys
 import xml.etree.ElementTree as xml
 
 
+LINES_OF_A_CHECK = 20  # that are printed of a failed check
+LAST_LINES = 30  # that are printed of a program that failed
 SLOWEST = 10  # programs that are listed with the time they took
 # What meson says of a program that did not end well; its report of checks does not always tell.
 BROKEN = ("FAIL", "ERROR", "TIMEOUT", "INTERRUPT")
@@ -48,11 +50,17 @@ def print_slowest(builds):
 
 
 def print_broken_logs(builds):
-    """What the programs printed that did not end well; meson puts that at the end of its log."""
+    """What the programs printed that did not end well: each failed check with its trace, and the last lines."""
     for build in builds:
-        log = pathlib.Path(build, "test.log")
-        if log.exists() and any(program["result"] in BROKEN for program in programs(build)):
-            sys.stdout.write("".join(log.read_text(errors="replace").splitlines(keepends=True)[-150:]))
+        for program in programs(build):
+            if program["result"] not in BROKEN:
+                continue
+            print(f"{build}: {program['name']}: {program['result']}")
+            lines = (program.get("stdout", "") + program.get("stderr", "")).splitlines()
+            failed = [i for i, line in enumerate(lines) if line.startswith("not ok")]
+            shown = {i for first in failed for i in range(first, first + LINES_OF_A_CHECK)} | set(range(len(lines) - LAST_LINES, len(lines)))
+            for i in sorted(shown & set(range(len(lines)))):
+                print("   ", lines[i])
 
 
 def main():

@@ -48,16 +48,16 @@ static void film_attempts(SporeWindow *self, const char *file, GVariant *whens) 
   const char *scene = spore_editor_document_get_save_file(self->document);
   g_autoptr(GArray) attempts = spore_attempts_read(scene);
   SporeFilmWork *work = spore_film_work_new(spore_editor_document_get(self->document), file, 0, chosen_speed(self));
-  GVariantIter iter;
-  gint64 when;
-  g_variant_iter_init(&iter, whens);
-  while (work->count < SPORE_FILMING_MOST && g_variant_iter_next(&iter, "x", &when)) {
+  gsize count = MIN(g_variant_n_children(whens), SPORE_FILMING_MOST);
+  for (gsize i = 0; i < count; i++) {
+    gint64 when;
+    g_variant_get_child(whens, i, "x", &when);
     const SporeAttempt *attempt = find_attempt(attempts, when);
-    if (!attempt) continue;
+    if (!attempt) break;
     spore_film_work_add(work, NULL, spore_attempts_track_file(scene, attempt));
     work->end_s = MAX(work->end_s, attempt->time_s); /* the exercise's clock began with the run */
   }
-  if (work->count > 0) {
+  if (count > 0 && work->count == count) {
     film(self, work);
     return;
   }

@@ -2768,11 +2768,15 @@ def shown(editor, pattern):
     return label.get_name() if label else None
 
 
-def film_attempts(editor, exercise):
-    """Plays the exercise again, ticks both attempts and films them side by side, ten times as fast; one is repeated, which is no
+def kept_attempts():
+    """The folders of inputs of attempts, one a scene."""
+    return set((pathlib.Path(os.environ["XDG_DATA_HOME"]) / "spore" / "attempts").glob("*"))
+
+
+def film_attempts(editor, exercise, others):
+    """others: folders of other scenes. Plays the exercise again, ticks both attempts and films them side by side, ten times as fast; one is repeated, which is no
     third attempt."""
-    tracks = pathlib.Path(os.environ["XDG_DATA_HOME"]) / "spore" / "attempts"
-    ended = lambda: sorted(int(file.stem) for file in tracks.glob("*/*.track"))
+    ended = lambda: sorted(int(file.stem) for folder in kept_attempts() - others for file in folder.glob("*.track"))
     ui.wait(ended, "the input of the attempt to be kept")
     film = lambda: editor.look("push button", "^Film…$", showing=False)
     enabled = lambda: film().get_state_set().contains(editor.atspi.StateType.SENSITIVE)
@@ -2790,7 +2794,7 @@ def film_attempts(editor, exercise):
     ui.wait(enabled, "Film to be possible")
     editor.act("speed", "s", "10")
     both = folder("exercise") / "both.webm"
-    editor.act("film-attempts", "(sax)", (str(both), [1]))
+    editor.act("film-attempts", "(sax)", (str(both), [ended()[0], 1]))
     ui.wait(lambda: "no such attempt" in (editor.message() or ""), "the refusal of an attempt that is not there")
     editor.act("film-attempts", "(sax)", (str(both), ended()))
     if "video" in FEATURES:
@@ -2819,6 +2823,7 @@ def film_attempts(editor, exercise):
 @check
 def exercise_from_nothing():
     """an exercise is authored from nothing, played from its track, and scored; the command line gives the same score, and each try-out says that it is one."""
+    others = kept_attempts()
     with start(exercise_scene("exercise")) as editor:
         ui.wait(lambda: editor.row("organ"), "the scene")
         editor.act("frame")
@@ -2878,7 +2883,7 @@ def exercise_from_nothing():
         ui.wait(lambda: "expected .csv, .json or .html" in (editor.message() or ""), "the refusal of another kind of file")
         kept = f"score {exercise['score']:.1f}, {exercise['time_s']:.2f} s, 2 of 2 steps, passed$"
         editor.find("label", kept, showing=False)
-        film_attempts(editor, exercise)
+        film_attempts(editor, exercise, others)
         editor.act("reset")
         ui.wait(lambda: shown(editor, "^Under way: score 0.0, 0 of 2 steps, 0.00 of 30 s"), "a new beginning")
         editor.act("select", "s", "exercise/reached")
