@@ -21,16 +21,15 @@ static void change_gizmo(GSimpleAction *action, GVariant *state, gpointer data) 
 
 /* AXIS-ALIGNMENT */
 static void act_align(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  static const char *const alignments[] = {"least", "middle", "greatest"};
   SporeWindow *self = data;
   const char *text = g_variant_get_string(parameter, NULL);
   g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
   g_autoptr(GError) error = NULL;
   if (text[0] < 'x' || text[0] > 'z' || text[1] != '-' || !spore_window_may_edit(self)) return;
-  for (gsize i = 0; i < G_N_ELEMENTS(alignments); i++)
-    if (g_str_equal(text + 2, alignments[i]) &&
-        !spore_edit_align(spore_editor_document_get(self->document), bodies, text[0] - 'x', (SporeAlignment)i, &error))
-      spore_window_failed(self, error);
+  int alignment = spore_alignment_find(text + 2);
+  if (alignment >= 0 && !spore_edit_align(spore_editor_document_get(self->document), bodies, text[0] - 'x',
+                                          (SporeAlignment)alignment, &error))
+    spore_window_failed(self, error);
 }
 
 /* AXIS-PLANE: through the middle of the body itself, or of the scene */

@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "app/cli/edit_place.h"
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
 #include "core/author/edits.h"
@@ -18,6 +19,7 @@
 /* The options of the command line. */
 typedef struct Request {
   char **add, **soft, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
+  SporeCliPlacing placing;
   gboolean probe;
 } Request;
 
@@ -228,6 +230,7 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     if (!moved) return FALSE;
     note(changed, moved);
   }
+  if (!spore_cli_place(document, &request->placing, changed, error)) return FALSE;
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
   return probe || !request->probe;
@@ -315,6 +318,18 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Move a port, and its instrument with it: the instrument turns about its tip, a camera about what it looks "
           "at (may be repeated)"),
        "PORT@X,Y,Z"},
+      {"move", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.placing.move,
+       N_("Move a body or instrument, with all that is placed on it, by so much, m, after what is added: BODY=X,Y,Z "
+          "(may be repeated)"),
+       "BODY=X,Y,Z"},
+      {"turn", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.placing.turn,
+       N_("Turn a body or instrument, with all that is placed on it, about an axis through its middle: liver=z:30 "
+          "(may be repeated)"),
+       "BODY=AXIS:DEGREES"},
+      {"align", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.placing.align,
+       N_("Move bodies along an axis until their least, middle or greatest coordinates are that of the first: "
+          "liver,spleen=y:least (may be repeated)"),
+       "BODY,BODY=AXIS:SIDE"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
@@ -322,10 +337,12 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
-                 request.fluid || request.mirror || request.port || request.probe;
+                 request.fluid || request.mirror || request.port || request.placing.move || request.placing.turn ||
+                 request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
-    status = spore_cli_usage(_("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
-                               "--instrument, --mirror, --fluid, --port or --probe; give one of them"));
+    status = spore_cli_usage(
+        _("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
+          "--instrument, --mirror, --fluid, --port, --move, --turn, --align or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
@@ -336,6 +353,9 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.mirror);
   g_strfreev(request.instrument);
   g_strfreev(request.port);
+  g_strfreev(request.placing.move);
+  g_strfreev(request.placing.turn);
+  g_strfreev(request.placing.align);
   g_free(request.patient);
   g_free(request.output);
   return status;

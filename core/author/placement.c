@@ -219,7 +219,36 @@ gboolean spore_placement_move(SporePlacement *placement, SporePose motion, GErro
   return TRUE;
 }
 
+SporePose spore_placement_turn(SporeVec3 place, SporeVec3 axis, double angle) {
+  SporePose motion = {place, spore_quat_from_rotation_vector(spore_vec3_scale(angle, axis))};
+  motion.position = spore_vec3_sub(place, spore_quat_rotate(motion.orientation, place));
+  return motion;
+}
+
+/* Edits. */
+
+gboolean spore_edit_move(SporeDocument *document, const GPtrArray *bodies, SporeVec3 by, GError **error) {
+  g_autoptr(SporePlacement) placement = spore_placement_new(document, bodies);
+  spore_document_begin(document, _("Move"));
+  return spore_edit_finish(document, spore_placement_move(placement, (SporePose){by, spore_quat_identity()}, error));
+}
+
+gboolean spore_edit_turn(SporeDocument *document, const GPtrArray *bodies, int axis, double angle, GError **error) {
+  static const SporeVec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  g_autoptr(SporePlacement) placement = spore_placement_new(document, bodies);
+  SporePose motion = spore_placement_turn(placement->middle, axes[axis], angle);
+  spore_document_begin(document, _("Turn"));
+  return spore_edit_finish(document, spore_placement_move(placement, motion, error));
+}
+
 /* Aligning. */
+
+int spore_alignment_find(const char *name) {
+  static const char *const names[] = {"least", "middle", "greatest"};
+  for (int i = 0; i < (int)G_N_ELEMENTS(names); i++)
+    if (g_str_equal(names[i], name)) return i;
+  return -1;
+}
 
 static double coordinate(SporeDocument *document, SporeObject *body, int axis, SporeAlignment alignment) {
   double lower[3], upper[3];

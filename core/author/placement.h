@@ -24,9 +24,19 @@ SporeVec3 spore_placement_middle(const SporePlacement *placement);
  * so that a drag may call this over and over. Of several commands: call it inside a group. FALSE with a GError: a place
  * would be out of range. */
 gboolean spore_placement_move(SporePlacement *placement, SporePose motion, GError **error);
+/* The motion that turns by an angle, rad, about an axis of length 1 through that place. */
+SporePose spore_placement_turn(SporeVec3 place, SporeVec3 axis, double angle);
+
+/* Moves the bodies, with all that is placed on them, by that way, m, as one undo step. FALSE with a GError: a place
+ * would be out of range. */
+gboolean spore_edit_move(SporeDocument *document, const GPtrArray *bodies, SporeVec3 by, GError **error);
+/* Turns them by an angle, rad, about that axis of the scene (0: x) through the middle of the box around them. */
+gboolean spore_edit_turn(SporeDocument *document, const GPtrArray *bodies, int axis, double angle, GError **error);
 
 /* Where the coordinate stands that bodies are aligned by: the least, the middle, the greatest of their boxes. */
 typedef enum SporeAlignment { SPORE_ALIGN_LEAST, SPORE_ALIGN_MIDDLE, SPORE_ALIGN_GREATEST } SporeAlignment;
+/* By its name: least, middle, greatest. Below 0: there is none of that name. */
+int spore_alignment_find(const char *name);
 
 /* Moves the other bodies along an axis (0: x) until their boxes are aligned with that of the first one, as one undo
  * step. FALSE with a GError: fewer than two bodies. */

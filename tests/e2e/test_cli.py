@@ -1509,6 +1509,38 @@ def an_instrument_is_refused_with_a_remedy():
 
 
 @check
+@alike
+def bodies_are_moved_turned_and_aligned():
+    """A bar and its pins are moved, turned about its middle and aligned with a block; what is no body, way, angle or side is refused, and nothing is written."""
+    bar = slim_bar()
+    at = bar.with_name("placed.spore")
+    text = bar.read_text().replace("</bodies>", '<body name="block" role="unmovable" position="0.1 0.2 0"><collision spheres="felt"/></body></bodies>')
+    at.write_text(text)
+
+    def vector(pattern):
+        return [float(v) for v in re.search(pattern, at.read_text()).group(1).split()]
+
+    def near(vector, expected):
+        return all(abs(a - b) < 2e-6 for a, b in zip(vector, expected))
+
+    assert report("edit", at, "--move", "bar=0.01,0,-0.02")["changed"] == ["bodies/bar"]
+    assert near(vector('name="bar" position="([^"]*)"'), (0.01, 0, -0.02)) and near(vector('name="end_0"[^>]* point="([^"]*)"'), (0.01, 0.004, -0.016))
+    assert near(vector('name="block"[^>]* position="([^"]*)"'), (0.1, 0.2, 0))
+    report("edit", at, "--turn", "bar=z:90")
+    assert near(vector('name="bar"[^>]* rotation="([^"]*)"'), (0, 0, math.pi / 2)) and near(vector('name="end_0"[^>]* point="([^"]*)"'), (0.035, -0.021, -0.016))
+    report("edit", at, "--turn", "bar=z:-90", "--align", "bar,block=y:least")
+    assert near(vector('name="block"[^>]* position="([^"]*)"'), (0.1, 0, 0))
+    before = at.read_text()
+    refuses("edit", at, "--move", "bar=0.01,0", says=["expected BODY=X,Y,Z in metres"])
+    refuses("edit", at, "--move", "bra=0.01,0,0", says=["there is no body \"bra\"", "bar, block"])
+    refuses("edit", at, "--turn", "bar=w:90", says=["expected BODY=AXIS:DEGREES"])
+    refuses("edit", at, "--turn", "bar=z:much", says=["expected BODY=AXIS:DEGREES"])
+    refuses("edit", at, "--align", "bar,block=y:last", says=["least, middle or greatest"])
+    refuses("edit", at, "--align", "bar=y:least", says=["nothing to align it with"])
+    assert at.read_text() == before
+
+
+@check
 def a_fluid_lands_on_a_floor():
     """A fluid whose collision unit names no spheres collides with its own: checked, planned, run, the same each time."""
     file("fluid/drop.off", shapes.off(*shapes.sphere(radius=0.006)))

@@ -163,14 +163,11 @@ static SporePose shift(SporeViewport *self, double step) {
 
 static SporePose turn(SporeViewport *self, double step) {
   double x, y;
-  SporePose motion = spore_pose_identity();
-  if (!spore_viewport_project(self, self->start, &x, &y)) return motion;
+  if (!spore_viewport_project(self, self->start, &x, &y)) return spore_pose_identity();
   SporeVec3 eye = toward_eye(self, self->start), axis = self->gizmo_axis == FREE ? eye : axes[self->gizmo_axis];
   double angle = atan2(self->pressed_y - y, self->pressed_x - x) - atan2(self->last_y - y, self->last_x - x);
   angle = snapped(remainder(spore_vec3_dot(axis, eye) < 0 ? -angle : angle, 2 * G_PI), step);
-  motion.orientation = spore_quat_from_rotation_vector(spore_vec3_scale(angle, axis));
-  motion.position = spore_vec3_sub(self->start, spore_quat_rotate(motion.orientation, self->start));
-  return motion;
+  return spore_placement_turn(self->start, axis, angle);
 }
 
 /* The drag. */
