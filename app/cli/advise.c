@@ -15,11 +15,13 @@
 
 #define USUAL_TIME_S 1. /* where nothing is recorded */
 #define LONGEST_TIME_S 10.
+#define LONGEST_EXERCISE_S 120. /* the last steps of an exercise are as much of it as the first */
 #define SAMPLES 50
 #define PERTURBED 2        /* runs from a start that is a little off */
 #define PERTURBATION 1e-8  /* of a body's length */
 #define LEAST_FLOOR 1e-6   /* of a body's length: nobody sees less */
 #define LEAST_FORCE_N 1e-4 /* no hand feels less */
+#define LEAST_SCORE 0.05   /* reports tell no less */
 
 /* The run of all that is physical, and the bodies that it followed. */
 typedef struct Replay {
@@ -61,6 +63,7 @@ static gboolean replay(Advice *advice, const SporeVariation *difference, double 
                                        .dt_s = variation.dt_s > 0 ? variation.dt_s : advice->dt_s,
                                        .perturbation = perturbation,
                                        .seed = seed,
+                                       .exercise = simulation->exercise,
                                        .cancel = spore_cli_cancel()};
   gboolean good = (points->bodies || spore_trial_points_choose(points, simulation->world, SPORE_NO_BODY, &fault)) &&
                   spore_trial_run(trial, simulation->world, points, &settings, &fault);
@@ -72,7 +75,7 @@ static gboolean replay(Advice *advice, const SporeVariation *difference, double 
 
 /* The noise floor: half the step, and starts that are a little off. */
 static gboolean find_floor(Advice *advice, Replay *full, SporeEvidence *evidence, GError **error) {
-  evidence->floor = LEAST_FLOOR, evidence->force_floor = LEAST_FORCE_N;
+  evidence->floor = LEAST_FLOOR, evidence->force_floor = LEAST_FORCE_N, evidence->score_floor = LEAST_SCORE;
   for (guint32 i = 0; i <= PERTURBED; i++) {
     const SporeVariation half = {.dt_s = i == 0 ? 0.5 * advice->dt_s : 0};
     SporeTrial other;
@@ -81,6 +84,8 @@ static gboolean find_floor(Advice *advice, Replay *full, SporeEvidence *evidence
     if (isfinite(influence.rms)) {
       evidence->floor = fmax(evidence->floor, influence.rms);
       evidence->force_floor = fmax(evidence->force_floor, influence.force);
+      evidence->score_floor = fmax(evidence->score_floor, influence.score);
+      spore_trial_events_spread(&evidence->events_floor, &full->trial.events, &other.events);
     }
     spore_trial_clear(&other);
   }
@@ -113,11 +118,34 @@ static gboolean try_form(Advice *advice, const Replay *full, guint32 body, const
     form->influence = spore_influence_between(&full->points, &full->trial, &points, &other);
     form->saved_us = evidence->step_us - step_us(&other);
     if (verdict == SPORE_VERDICT_EFFECT)
-      evidence->events = memcmp(&full->trial.events, &other.events, sizeof(SporeTrialEvents)) != 0;
+      evidence->events = !spore_trial_events_alike(&full->trial.events, &other.events, &evidence->events_floor);
     spore_trial_clear(&other);
   }
   g_free(points.bodies);
   return good;
+}
+
+static gboolean refers_to(const SporeObject *object, const SporeObject *target) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (gsize p = 0; p < table->count; p++)
+    if (table->parameters[p].type == SPORE_REFERENCE &&
+        spore_object_reference(object, table->parameters[p].name) == target)
+      return TRUE;
+  return FALSE;
+}
+
+/* Name of a step of the exercise that is done to the body, and that the run did not do: what the body does for the step
+ * was not seen. */
+static const char *awaited_of(const Advice *advice, const SporeTrial *full, const SporeObject *body) {
+  const SporeObject *section = spore_document_section(advice->run->document, "exercise");
+  for (gsize i = 0; i < full->exercise.steps; i++) {
+    const char *name = spore_exercise_step_state(advice->run->simulation->exercise, i).name;
+    for (guint k = 0; !full->steps_done[i] && k < spore_object_child_count(section); k++) {
+      const SporeObject *part = spore_object_child(section, k);
+      if (g_strcmp0(spore_object_name(part), name) == 0 && refers_to(part, body)) return spore_object_name(part);
+    }
+  }
+  return NULL;
 }
 
 /* Name of an instrument that names the body, or of a link that ties the body to what a device moves. */
@@ -128,15 +156,14 @@ static const char *holder_of(SporeDocument *document, const SporeObject *body) {
     for (guint i = 0; i < spore_object_child_count(section); i++) {
       const SporeObject *object = spore_object_child(section, i);
       const SporeParameterTable *table = spore_object_type(object)->table;
-      gboolean names = FALSE, active = k == 0;
+      gboolean active = k == 0;
       for (gsize p = 0; p < table->count; p++) {
         if (table->parameters[p].type != SPORE_REFERENCE) continue;
         const SporeObject *target = spore_object_reference(object, table->parameters[p].name);
-        names |= target == body;
         active |= target && strcmp(spore_object_type(target)->element, "body") == 0 &&
                   (int)spore_object_number(target, "role") == SPORE_ACTIVE;
       }
-      if (names && active) return spore_object_name(object);
+      if (active && refers_to(object, body)) return spore_object_name(object);
     }
   }
   return NULL;
@@ -158,9 +185,11 @@ static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed
   SporeObject *object = spore_document_find(advice->run->document, "body", name);
   evidence->own_motion = spore_influence_own_motion(&full->points, &full->trial, followed);
   evidence->held = holder_of(advice->run->document, object);
-  evidence->alone = full->points.body_count == 1;
-  if (evidence->held || evidence->alone) return TRUE;
   gboolean has = has_effect(advice, object, body);
+  evidence->alone = full->points.body_count == 1 && !(has && full->trial.exercise.steps > 0);
+  evidence->awaited = awaited_of(advice, &full->trial, object);
+  if (evidence->held || evidence->alone || evidence->awaited) return TRUE;
+  evidence->forms[SPORE_VERDICT_EFFECT].left_out = !has;
   const SporeVariation still = {.still = name}, effect = {.effect = has ? name : NULL, .left_out = has ? NULL : name};
   if (!try_form(advice, full, body, &effect, SPORE_VERDICT_EFFECT, evidence, error)) return FALSE;
   gboolean particles = spore_world_body_model(world, body)->type->particles != NULL;
@@ -177,30 +206,58 @@ static gboolean find_evidence(Advice *advice, const Replay *full, gsize followed
 
 /* Reports. */
 
-static char *reason_of(const Advice *advice, const SporeEvidence *evidence, SporeVerdict verdict) {
+#define LEAVE_OUT N_("let a special effect take its place, or leave it out")
+
+static void report_exercise(SporeCli *cli, const SporeExerciseState *exercise, const SporeEvidence *floor) {
+  if (exercise->steps == 0) return;
+  spore_cli_open(cli, "exercise");
+  spore_cli_text(cli, "phase", spore_exercise_phase_names[exercise->phase]);
+  spore_cli_number(cli, "score", exercise->score);
+  spore_cli_number(cli, "score_floor", floor->score_floor);
+  spore_cli_count(cli, "steps", exercise->steps);
+  spore_cli_count(cli, "steps_done", exercise->steps_done);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("exercise: %zu of %zu steps are done, score %.1f; the same moves the score by %.2g\n"),
+                exercise->steps_done, exercise->steps, exercise->score, floor->score_floor);
+}
+
+/* Why a cheaper form will do. */
+static char *praise_of(const SporeEvidence *evidence, SporeVerdict verdict, gboolean exercise) {
+  static const char *const unmoved[SPORE_VERDICT_COUNT] = {
+      [SPORE_VERDICT_STILL] = N_("nothing else moves otherwise where it stands still"),
+      [SPORE_VERDICT_COARSE] = N_("nothing else moves otherwise at its coarsest level"),
+      [SPORE_VERDICT_EFFECT] = N_("nothing else moves otherwise where its effect takes its place")};
+  const SporeForm *form = &evidence->forms[verdict];
+  GString *text = g_string_new(form->left_out ? _("nothing else moves otherwise without it") : _(unmoved[verdict]));
+  if (verdict == SPORE_VERDICT_STILL)
+    g_string_append_printf(text, _("; it moves by %.2g %% of its length at most"), 100 * evidence->own_motion);
+  if (exercise) g_string_append(text, _("; the exercise has the same steps done and the same score"));
+  g_string_append_printf(text, _("; %.0f %% of a step is saved"), 100 * form->saved_us / evidence->step_us);
+  return g_string_free(text, FALSE);
+}
+
+static char *reason_of(const Advice *advice, const SporeEvidence *evidence, SporeVerdict verdict, gboolean exercise) {
   const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
   if (evidence->held) return g_strdup_printf(_("\"%s\" acts on it"), evidence->held);
   if (evidence->alone) return g_strdup(_("it is all that moves by physics"));
   if (evidence->events)
     return g_strdup(_("an instrument or a load does to it what does not happen without it: it is cut, coagulated, "
                       "taken, held, or breaks"));
-  double share = evidence->step_us > 0 ? evidence->forms[verdict].saved_us / evidence->step_us : 0;
-  if (verdict == SPORE_VERDICT_EFFECT)
-    return g_strdup_printf(_("nothing else moves otherwise without it; %.0f %% of a step is saved"), 100 * share);
-  if (verdict == SPORE_VERDICT_STILL)
-    return g_strdup_printf(
-        _("it moves by %.2g %% of its length at most, and nothing else moves otherwise where it stands "
-          "still; %.0f %% of a step is saved"),
-        100 * evidence->own_motion, 100 * share);
-  if (verdict == SPORE_VERDICT_COARSE)
-    return g_strdup_printf(_("nothing else moves otherwise at its coarsest level; %.0f %% of a step is saved"),
-                           100 * share);
+  if (verdict != SPORE_VERDICT_PHYSICAL) return praise_of(evidence, verdict, exercise);
+  if (evidence->awaited)
+    return g_strdup_printf(_("step \"%s\" of the exercise is done to it, and not done with this input"),
+                           evidence->awaited);
   if (out->influence.rms > evidence->floor && out->influence.worst_body != SPORE_NO_BODY)
     return g_strdup_printf(_("without it \"%s\" is up to %.2g %% of its length elsewhere"),
                            spore_world_body_name(advice->run->simulation->world, out->influence.worst_body),
                            100 * out->influence.worst);
   if (out->influence.force > evidence->force_floor)
     return g_strdup_printf(_("without it hands feel %.2g N less or more"), out->influence.force);
+  if (out->influence.steps > 0)
+    return g_strdup_printf(_("without it step \"%s\" of the exercise is done otherwise"),
+                           spore_exercise_step_state(advice->run->simulation->exercise, out->influence.step).name);
+  if (out->influence.score > evidence->score_floor)
+    return g_strdup_printf(_("without it the score of the exercise is %.1f away"), out->influence.score);
   if (!(out->saved_us > 0)) return g_strdup(_("leaving it out saves nothing"));
   return g_strdup_printf(_("leaving it out saves %.1f %% of a step, which is not worth it"),
                          100 * out->saved_us / evidence->step_us);
@@ -213,15 +270,18 @@ static void report_form(SporeCli *cli, const char *name, const SporeForm *form) 
   spore_cli_number(cli, "influence", form->influence.rms);
   spore_cli_number(cli, "worst", form->influence.worst);
   spore_cli_number(cli, "force_N", form->influence.force);
+  spore_cli_number(cli, "score", form->influence.score);
+  spore_cli_flag(cli, "same_steps", form->influence.steps == 0);
   spore_cli_number(cli, "saved_us", form->saved_us);
   spore_cli_close(cli);
 }
 
-static SporeVerdict report_element(Advice *advice, const char *name, const SporeEvidence *evidence, int width) {
+static SporeVerdict report_element(Advice *advice, const char *name, const SporeEvidence *evidence, gboolean exercise,
+                                   int width) {
   SporeCli *cli = advice->cli;
   SporeVerdict verdict = spore_evidence_verdict(evidence);
   const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
-  g_autofree char *reason = reason_of(advice, evidence, verdict), *id = g_strdup_printf("bodies/%s", name);
+  g_autofree char *reason = reason_of(advice, evidence, verdict, exercise), *id = g_strdup_printf("bodies/%s", name);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "id", id);
   spore_cli_number(cli, "influence", out->tried ? out->influence.rms : NAN);
@@ -244,10 +304,10 @@ static SporeVerdict report_element(Advice *advice, const char *name, const Spore
 
 static void report_suggestions(Advice *advice, const SporeTrialPoints *points, const SporeVerdict *verdicts,
                                const SporeEvidence *evidence) {
-  static const char *const changes[SPORE_VERDICT_COUNT] = {
-      [SPORE_VERDICT_STILL] = N_("make it unmovable"),
-      [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
-      [SPORE_VERDICT_EFFECT] = N_("let a special effect take its place, or leave it out")};
+  static const char *const changes[SPORE_VERDICT_COUNT] = {[SPORE_VERDICT_STILL] = N_("make it unmovable"),
+                                                           [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
+                                                           [SPORE_VERDICT_EFFECT] =
+                                                               N_("let its special effect take its place")};
   SporeCli *cli = advice->cli;
   guint count = 0;
   spore_cli_open_array(cli, "suggestion");
@@ -257,11 +317,11 @@ static void report_suggestions(Advice *advice, const SporeTrialPoints *points, c
     double saved_us = evidence[k].forms[verdicts[k]].saved_us;
     spore_cli_open(cli, NULL);
     spore_cli_text(cli, "id", name);
-    spore_cli_text(cli, "change", _(changes[verdicts[k]]));
+    const char *change = _(evidence[k].forms[verdicts[k]].left_out ? LEAVE_OUT : changes[verdicts[k]]);
+    spore_cli_text(cli, "change", change);
     spore_cli_number(cli, "saves_us", saved_us);
     spore_cli_close(cli);
-    spore_cli_say(cli, _("%s: %s; saves %.1f us of %.1f us a step\n"), name, _(changes[verdicts[k]]), saved_us,
-                  evidence[k].step_us);
+    spore_cli_say(cli, _("%s: %s; saves %.1f us of %.1f us a step\n"), name, change, saved_us, evidence[k].step_us);
     count++;
   }
   spore_cli_close_array(cli);
@@ -326,12 +386,13 @@ static gboolean advise(Advice *advice, GError **error) {
                   _("noise floor: halving the step, or a start that is a little off, moves bodies by %.2g %% of "
                     "their length, and hands feel %.2g N of it\n"),
                   100 * floor.floor, floor.force_floor);
+    report_exercise(cli, &full.trial.exercise, &floor);
     spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, _("body"), _("verdict"), _("influence"), _("cost"), _("why"));
     spore_cli_open_array(cli, "elements");
     for (gsize k = 0; k < count; k++)
       verdicts[k] =
           report_element(advice, spore_world_body_name(advice->run->simulation->world, full.points.bodies[k].body),
-                         &evidence[k], width);
+                         &evidence[k], full.trial.exercise.steps > 0, width);
     spore_cli_close_array(cli);
     report_suggestions(advice, &full.points, verdicts, evidence);
     good = write_scene(advice, &full.points, verdicts, error);
@@ -342,11 +403,12 @@ static gboolean advise(Advice *advice, GError **error) {
 
 /* The whole of the recorded input, up to a limit. */
 static double usual_time(const SporeRun *run) {
+  double longest_s = run->simulation->exercise ? LONGEST_EXERCISE_S : LONGEST_TIME_S;
   const SporeTrack *track = run->input.channel_count ? &run->input : run->simulation->track;
   double end_s = 0;
   for (gsize i = 0; track && i < track->channel_count; i++)
     if (track->channels[i].count) end_s = fmax(end_s, track->channels[i].time_s[track->channels[i].count - 1]);
-  return end_s > 0 ? fmin(end_s, LONGEST_TIME_S) : USUAL_TIME_S;
+  return end_s > 0 ? fmin(end_s, longest_s) : USUAL_TIME_S;
 }
 
 static int run_advice(SporeCli *cli, const char *scene, const SporeSceneOptions *options,
@@ -395,7 +457,11 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
           "their length; null: not tried), noise_floor (the same of half the step, or of a start that is a little "
           "off), force_N and force_floor_N (the same of forces on what devices move), cost_us (of a step, that it "
           "takes), own_motion (by its length), verdict (physical, still, coarse, effect), reason, forms (that were "
-          "tried: form, influence, worst, force_N, saved_us)")},
+          "tried: form, influence, worst, force_N, score and same_steps (of the exercise: how far the score is away, "
+          "whether the same steps are done), saved_us)")},
+      {"exercise",
+       N_("the scene's, as the replay did it: phase, score, score_floor (that half the step, or a start that is a "
+          "little off, moves the score by), steps, steps_done")},
       {"suggestion", N_("what may be changed: id, change, saves_us")},
       {"budget",
        N_("with --budget-us, where elements tell the verdict (physical, or the level that is taken), integrator and "
@@ -413,8 +479,9 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
       N_("Replays the scene without the physics of each of its bodies, and says which of them nobody would miss: "
          "physical where "
          "others "
-         "feel it, or an effect where what is seen of it is enough. What has an effect is replayed as one. The advice "
-         "holds for the input that was replayed."),
+         "feel it, or an effect where what is seen of it is enough. What has an effect is replayed as one. Where the "
+         "scene has an exercise, its steps and score have to stay the same, too. The advice holds for the input that "
+         "was replayed."),
       1,
       1,
       members};
@@ -422,8 +489,8 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
   SporeBudgetRequest budget = {0};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_STRING, &budget.time,
-       N_("Simulated time of each replay (default: the recorded input, up to 10 s; without one 1 s; with --budget-us "
-          "1 s with contacts in it)"),
+       N_("Simulated time of each replay (default: the recorded input, up to 10 s, of an exercise up to 120 s; without "
+          "one 1 s; with --budget-us 1 s with contacts in it)"),
        "S"},
       {"budget-us", 0, 0, G_OPTION_ARG_STRING, &budget.budget,
        N_("Choose the level and integrator of each body, step and solvers, so that what a step of the scene simulates "

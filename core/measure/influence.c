@@ -56,12 +56,20 @@ static double force_between(const SporeTrial *a, const SporeTrial *b) {
   return a->samples ? sqrt(sum / (double)a->samples) : 0;
 }
 
+/* Both are of one scene: their exercises have the same steps. */
+static void compare_exercises(SporeInfluence *influence, const SporeTrial *a, const SporeTrial *b) {
+  assert(a->exercise.steps == b->exercise.steps);
+  influence->score = fabs(a->exercise.score - b->exercise.score);
+  for (size_t i = a->exercise.steps; i-- > 0;)
+    if (a->steps_done[i] != b->steps_done[i]) influence->step = i, influence->steps++;
+}
+
 SporeInfluence spore_influence_between(const SporeTrialPoints *points, const SporeTrial *trial,
                                        const SporeTrialPoints *other_points, const SporeTrial *other) {
   SporeInfluence influence = {.worst_body = SPORE_NO_BODY};
   double bodies = 0;
   if (trial->samples != other->samples || !trial->finite || !other->finite) {
-    influence.rms = influence.worst = influence.force = INFINITY;
+    influence.rms = influence.worst = influence.force = influence.score = INFINITY;
     return influence;
   }
   for (size_t k = 0, first = 0; k < points->body_count; first += points->bodies[k++].count) {
@@ -80,6 +88,7 @@ SporeInfluence spore_influence_between(const SporeTrialPoints *points, const Spo
   }
   influence.rms = bodies > 0 ? sqrt(influence.rms / bodies) : 0;
   influence.force = force_between(trial, other);
+  compare_exercises(&influence, trial, other);
   return influence;
 }
 
@@ -101,11 +110,12 @@ double spore_influence_own_motion(const SporeTrialPoints *points, const SporeTri
 static bool will_do(const SporeEvidence *evidence, SporeVerdict verdict) {
   const SporeForm *form = &evidence->forms[verdict];
   return form->tried && form->influence.rms <= evidence->floor && form->influence.force <= evidence->force_floor &&
+         form->influence.score <= evidence->score_floor && form->influence.steps == 0 &&
          form->saved_us >= SPORE_EVIDENCE_WORTH * evidence->step_us;
 }
 
 SporeVerdict spore_evidence_verdict(const SporeEvidence *evidence) {
-  if (evidence->held || evidence->alone || evidence->events) return SPORE_VERDICT_PHYSICAL;
+  if (evidence->held || evidence->alone || evidence->awaited || evidence->events) return SPORE_VERDICT_PHYSICAL;
   if (will_do(evidence, SPORE_VERDICT_EFFECT)) return SPORE_VERDICT_EFFECT;
   if (evidence->own_motion <= SPORE_EVIDENCE_STILL && will_do(evidence, SPORE_VERDICT_STILL))
     return SPORE_VERDICT_STILL;

@@ -13,6 +13,9 @@ typedef struct SporeInfluence {
   double worst; /* of any of these points at any time */
   uint32_t worst_body; /* the body that the point is of; SPORE_NO_BODY: no body was followed */
   double force;        /* root mean square difference of the forces on bodies that devices move, N */
+  double score;        /* distance of the scores of the scene's exercise; 0: there is none */
+  size_t steps;        /* of the exercise: how many one run alone did */
+  size_t step;         /* the first of these */
 } SporeInfluence;
 
 /* Compares two trials whose looks were at the same times. Bodies that only one of them followed are left out. Particles
@@ -36,6 +39,7 @@ extern const char *const spore_verdict_names[]; /* "physical", "still", "coarse"
 /* A cheaper form of an element, tried. */
 typedef struct SporeForm {
   bool tried;
+  bool left_out; /* there is no effect for it: it was not there at all */
   SporeInfluence influence;
   double saved_us; /* of a step, CPU time */
 } SporeForm;
@@ -45,11 +49,14 @@ typedef struct SporeEvidence {
   double floor;       /* what the step's own error, or a start that is a little off, does to the other bodies, as
                          SporeInfluence.rms; what lies below cannot be told from it */
   double force_floor; /* the same of the forces, N */
-  double step_us;     /* of the scene as it is, CPU time */
+  double score_floor; /* the same of the exercise's score */
+  SporeTrialEvents events_floor; /* the same of what is counted */
+  double step_us;                /* of the scene as it is, CPU time */
   double own_motion;
-  const char *held; /* an instrument or a link by that name acts on it, which is a veto; NULL: none */
-  bool alone;       /* nothing else moves by physics */
-  bool events;      /* without it something else breaks, tears or is cut: a veto */
+  const char *held;    /* an instrument or a link by that name acts on it, which is a veto; NULL: none */
+  bool alone;          /* nothing else moves by physics, and no exercise tells whether an effect will do: a veto */
+  const char *awaited; /* a step of the exercise that is done to it, and that the run never did: a veto; NULL: none */
+  bool events;         /* without it something else breaks, tears or is cut: a veto */
   SporeForm forms[SPORE_VERDICT_COUNT]; /* by the verdict that they lead to */
 } SporeEvidence;
 

@@ -3,6 +3,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 #include <time.h>
 
@@ -46,9 +47,12 @@ static bool allocate(Run *run) {
   trial->device_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_force = SPORE_NEW_ARRAY(double, samples * trial->world_bodies * 3);
   trial->contact_depth = SPORE_NEW_ARRAY(double, samples);
+  trial->steps_done =
+      SPORE_NEW_ARRAY(bool, run->settings->exercise ? spore_exercise_state(run->settings->exercise).steps : 0);
   run->mappings = SPORE_NEW_ARRAY(SporeMapping, SPORE_LOD_COUNT * run->points->body_count);
   return trial->positions && trial->energy && trial->kinetic && trial->momentum && trial->centre && trial->spread &&
-         trial->present && trial->device_force && trial->contact_force && trial->contact_depth && run->mappings;
+         trial->present && trial->device_force && trial->contact_force && trial->contact_depth && trial->steps_done &&
+         run->mappings;
 }
 
 /* Maps the points at each level that the body has: it may change from one to another. */
@@ -77,6 +81,33 @@ static bool map_points(Run *run, SporeError *error) {
     if (body->rest && !map_body(run, k, error)) return false;
   }
   return true;
+}
+
+#define EVENT_COUNTS (offsetof(SporeTrialEvents, coagulated) / sizeof(uint64_t)) /* the first members */
+
+/* The distances of a's and b's counts. */
+static void events_apart(uint64_t apart[EVENT_COUNTS], const SporeTrialEvents *a, const SporeTrialEvents *b) {
+  uint64_t in_b[EVENT_COUNTS];
+  memcpy(apart, a, sizeof in_b);
+  memcpy(in_b, b, sizeof in_b);
+  for (size_t i = 0; i < EVENT_COUNTS; i++) apart[i] = apart[i] > in_b[i] ? apart[i] - in_b[i] : in_b[i] - apart[i];
+}
+
+void spore_trial_events_spread(SporeTrialEvents *spread, const SporeTrialEvents *a, const SporeTrialEvents *b) {
+  uint64_t apart[EVENT_COUNTS], most[EVENT_COUNTS];
+  events_apart(apart, a, b);
+  memcpy(most, spread, sizeof most);
+  for (size_t i = 0; i < EVENT_COUNTS; i++) most[i] = most[i] > apart[i] ? most[i] : apart[i];
+  memcpy(spread, most, sizeof most);
+}
+
+bool spore_trial_events_alike(const SporeTrialEvents *a, const SporeTrialEvents *b, const SporeTrialEvents *spread) {
+  uint64_t apart[EVENT_COUNTS], most[EVENT_COUNTS];
+  bool alike = !a->coagulated == !b->coagulated && !a->taken == !b->taken;
+  events_apart(apart, a, b);
+  memcpy(most, spread, sizeof most);
+  for (size_t i = 0; i < EVENT_COUNTS; i++) alike &= apart[i] <= most[i];
+  return alike;
 }
 
 /* -1 .. 1, the same on every machine. */
@@ -235,6 +266,7 @@ static bool step(Run *run, size_t steps) {
     spore_world_step(run->world);
     if (spore_world_cancelled(run->world)) break;
     spore_world_tidy(run->world);
+    if (run->settings->exercise) spore_exercise_watch(run->settings->exercise, run->world);
     SporeStepCounts counts = spore_world_counts(run->world);
     trial->force_evaluations += (double)counts.force_evaluations;
     trial->newton += (double)counts.newton_iterations;
@@ -262,6 +294,12 @@ static void count_events(SporeTrialEvents *events, const SporeWorld *world) {
   }
 }
 
+static void take_exercise(SporeTrial *trial, const SporeExercise *exercise) {
+  trial->exercise = spore_exercise_state(exercise);
+  for (size_t i = 0; i < trial->exercise.steps; i++)
+    trial->steps_done[i] = spore_exercise_step_state(exercise, i).phase == SPORE_STEP_DONE;
+}
+
 static void judge(Run *run) {
   SporeTrial *trial = run->trial;
   const SporeMonitor *monitor = spore_world_monitor(run->world);
@@ -272,6 +310,7 @@ static void judge(Run *run) {
   trial->recoveries = monitor->recoveries;
   trial->unsolved = spore_world_unsolved_count(run->world);
   count_events(&trial->events, run->world);
+  if (run->settings->exercise) take_exercise(trial, run->settings->exercise);
   trial->stable = trial->finite && !monitor->not_finite && !monitor->too_fast && !monitor->energy;
   for (uint32_t i = 0; i < spore_world_body_count(run->world); i++)
     trial->stable &= !spore_world_body_frozen(run->world, i) && !spore_world_body_made_safer(run->world, i);
@@ -291,6 +330,7 @@ bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoint
   bool good = allocate(&run) || no_memory(error);
   good = good && map_points(&run, error) && spore_stretch_create(&run.stretch, world, error);
   if (good && settings->perturbation > 0) good = perturb(&run) || no_memory(error);
+  if (good && settings->exercise) spore_exercise_restart(settings->exercise, world);
   if (good && !settings->timed_only) look(&run);
   for (size_t s = 0; good && s < settings->samples && step(&run, each); s++)
     if (!settings->timed_only) look(&run);
@@ -314,5 +354,6 @@ void spore_trial_clear(SporeTrial *trial) {
   spore_free(trial->device_force);
   spore_free(trial->contact_force);
   spore_free(trial->contact_depth);
+  spore_free(trial->steps_done);
   *trial = (SporeTrial){0};
 }

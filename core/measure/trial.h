@@ -4,14 +4,21 @@
 #define SPORE_MEASURE_TRIAL_H
 
 #include "core/base/cancel.h"
+#include "core/exercise/exercise.h"
 #include "core/sim/world.h"
 
 /* What happened in a run, besides motion: counts at its end, of all instruments and bodies. */
 typedef struct SporeTrialEvents {
-  uint64_t broken, torn, lost;             /* links; springs of nets; holds of jaws */
-  uint64_t cut, coagulated;                /* ties; ties and elements, summed over the steps */
-  uint64_t taken, pierced, stitches, held; /* particles; surfaces; stitches and spheres held now */
+  uint64_t broken, torn, lost;      /* links; springs of nets; holds of jaws */
+  uint64_t cut;                     /* ties */
+  uint64_t pierced, stitches, held; /* surfaces; stitches and spheres held now */
+  uint64_t coagulated, taken;       /* amounts: ties and elements, summed over the steps; particles */
 } SporeTrialEvents;
+
+/* Adds to each count of `spread` what it lacks of the distance between a and b. */
+void spore_trial_events_spread(SporeTrialEvents *spread, const SporeTrialEvents *a, const SporeTrialEvents *b);
+/* Whether no count of a and b is further apart than `spread` says, and of amounts there are in both or in neither. */
+bool spore_trial_events_alike(const SporeTrialEvents *a, const SporeTrialEvents *b, const SporeTrialEvents *spread);
 
 #define SPORE_TRIAL_POINTS 64 /* of a body at most */
 
@@ -43,12 +50,13 @@ double spore_trial_step(double interval_s, double most_s);
 
 /* How a trial is run. */
 typedef struct SporeTrialSettings {
-  double interval_s;   /* between two looks at the points; a multiple of the world's step: spore_trial_step */
-  size_t samples;      /* looks, the one at time 0 not counted */
-  double dt_s;         /* the world's step */
-  double perturbation; /* by which each coordinate of the start is moved at most, as a part of the body's length */
-  uint32_t seed;       /* of the perturbation */
-  bool timed_only;     /* positions, energy and momentum are not looked at */
+  double interval_s;       /* between two looks at the points; a multiple of the world's step: spore_trial_step */
+  size_t samples;          /* looks, the one at time 0 not counted */
+  double dt_s;             /* the world's step */
+  double perturbation;     /* by which each coordinate of the start is moved at most, as a part of the body's length */
+  uint32_t seed;           /* of the perturbation */
+  bool timed_only;         /* positions, energy and momentum are not looked at */
+  SporeExercise *exercise; /* of the world, which begins anew and looks at each step; NULL: none */
   const SporeCancel *cancel; /* asked at each look, beside what the world asks by itself */
 } SporeTrialSettings;
 
@@ -69,7 +77,8 @@ typedef struct SporeTrial {
   double *contact_depth; /* samples: of the deepest contact, m */
   size_t steps;
   double dt_s, simulated_s;
-  double cpu_s;                                       /* of the steps, on the thread's own clock; looks are not in it */
+  double cpu_s;                                       /* of the steps, and of the exercise after each, on the thread's
+                                                         own clock; looks at the points are not in it */
   double median_us, p99_us;                           /* of a step, by the clock, of the last steps */
   double force_evaluations, newton, linear, contacts; /* sums over the steps */
   double penetration; /* deepest overlap of two spheres by the smaller radius; looked at with the positions */
@@ -78,11 +87,13 @@ typedef struct SporeTrial {
   double residual;     /* worst, relative */
   uint64_t recoveries; /* steps taken again */
   SporeTrialEvents events;
-  size_t unsolved; /* entries of the register of steps that were not solved as the scene is written */
-  bool finite;     /* all that was looked at is a number */
-  bool stable;     /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that
-                      it had to freeze or to move by a safer method */
-  bool cancelled;  /* it ended early */
+  SporeExerciseState exercise; /* at the end; all 0 without one */
+  bool *steps_done;            /* of the exercise: exercise.steps */
+  size_t unsolved;             /* entries of the register of steps that were not solved as the scene is written */
+  bool finite;                 /* all that was looked at is a number */
+  bool stable;    /* finite, and the monitor met no energy out of nothing, no speed without bound, no body that
+                     it had to freeze or to move by a safer method */
+  bool cancelled; /* it ended early */
 } SporeTrial;
 
 /* Runs a world that is at time 0. The result is to be freed by spore_trial_clear. False: no memory, or a body of the

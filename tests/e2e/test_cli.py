@@ -1210,6 +1210,15 @@ def advise_tells_physical_from_effect():
         for changes, mist in ((), "effect"), (("--set", "bodies/organ/velocity=0 0.1 0"), "physics"):
             moved = {b["name"]: b["moved_by"] for b in report("run", advised, "-n", "3", *changes)["bodies"]}
             assert moved == {"organ": "physics", "extra": "physics", "mist": mist}, moved
+    for step, says in (('<reached name="down" body="organ" point="0 -0.01 0" radius="0.005"/>', "same steps done and the same score"),
+                       ('<reached name="down" body="extra" point="0 -0.11 0" radius="0.005"/>', 'step "down" of the exercise is done otherwise'),
+                       ('<reached name="down" body="extra" point="0 9 0"/>', "not done with this input")):
+        text = hanging("exercise", 0.001).read_text().replace("</spore>", f"<exercise>{step}</exercise></spore>")
+        answer = report("advise", file("hang/exercise.spore", text))
+        extra = {e["id"]: e for e in answer["elements"]}["bodies/extra"]
+        assert says in extra["reason"] or "same" in says and unfelt(extra), extra
+        assert answer["exercise"]["steps_done"] == (says != "not done with this input"), answer["exercise"]
+        assert (extra["verdict"] == "effect") <= ("same" in says), extra
     alone = report("advise", soft_ball())
     assert [e["verdict"] for e in alone["elements"]] == ["physical"] and alone["suggestion"] == []
 

@@ -72,7 +72,15 @@ static void test_verdict(void) {
   evidence.forms[SPORE_VERDICT_STILL].tried = false;
   evidence.forms[SPORE_VERDICT_COARSE] = form(9e-4, 0, 30);
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_COARSE);
-  evidence.events = true;
+  evidence.score_floor = 0.1, evidence.forms[SPORE_VERDICT_COARSE].influence.score = 0.2; /* not as good a trainee */
+  g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
+  evidence.score_floor = 0.3;
+  g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_COARSE);
+  evidence.forms[SPORE_VERDICT_COARSE].influence.steps = 1;
+  g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
+  evidence.forms[SPORE_VERDICT_COARSE].influence.steps = 0, evidence.awaited = "cut";
+  g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
+  evidence.awaited = NULL, evidence.events = true;
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
   evidence.events = false, evidence.held = "forceps";
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
@@ -80,9 +88,25 @@ static void test_verdict(void) {
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
 }
 
+/* What is within what half a step makes of it is alike; of amounts only whether there are any. */
+static void test_events(void) {
+  SporeTrialEvents spread = {0};
+  const SporeTrialEvents full = {.torn = 10, .held = 2, .taken = 80};
+  const SporeTrialEvents half = {.torn = 12, .held = 2, .taken = 85}, more = {.torn = 12, .held = 3, .taken = 70};
+  g_assert_true(spore_trial_events_alike(&full, &full, &spread));
+  g_assert_false(spore_trial_events_alike(&full, &half, &spread));
+  spore_trial_events_spread(&spread, &full, &half);
+  spore_trial_events_spread(&spread, &full, &full);
+  g_assert_true(spore_trial_events_alike(&full, &half, &spread));
+  g_assert_false(spore_trial_events_alike(&full, &more, &spread));
+  const SporeTrialEvents none = {.torn = 10, .held = 2};
+  g_assert_false(spore_trial_events_alike(&full, &none, &spread));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/measure/influence/between", test_between);
   g_test_add_func("/measure/influence/verdict", test_verdict);
+  g_test_add_func("/measure/influence/events", test_events);
   return g_test_run();
 }
