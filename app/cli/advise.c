@@ -58,16 +58,20 @@ static gboolean replay(Advice *advice, const SporeVariation *difference, double 
   g_autoptr(SporeSimulation) simulation =
       spore_variation_make(advice->run->document, &variation, advice->run->pool, input, spore_cli_cancel(), error);
   if (!simulation) return FALSE;
+  SporeProgressShare share = {spore_cli_progress(advice->cli), (double)advice->done / advice->count,
+                              1. / advice->count};
+  SporeProgress progress = spore_progress_of_share(&share);
   const SporeTrialSettings settings = {.interval_s = advice->interval_s,
                                        .samples = SAMPLES,
                                        .dt_s = variation.dt_s > 0 ? variation.dt_s : advice->dt_s,
                                        .perturbation = perturbation,
                                        .seed = seed,
                                        .exercise = simulation->exercise,
+                                       .progress = &progress,
                                        .cancel = spore_cli_cancel()};
   gboolean good = (points->bodies || spore_trial_points_choose(points, simulation->world, SPORE_NO_BODY, &fault)) &&
                   spore_trial_run(trial, simulation->world, points, &settings, &fault);
-  if (good) spore_progress(spore_cli_progress(advice->cli), (double)++advice->done / advice->count, _("replaying"));
+  advice->done++;
   if (good && !trial->cancelled) return TRUE;
   spore_trial_clear(trial);
   return good ? cancelled(error) : spore_error_propagate(&fault, error);

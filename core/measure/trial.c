@@ -332,8 +332,11 @@ bool spore_trial_run(SporeTrial *trial, SporeWorld *world, const SporeTrialPoint
   if (good && settings->perturbation > 0) good = perturb(&run) || no_memory(error);
   if (good && settings->exercise) spore_exercise_restart(settings->exercise, world);
   if (good && !settings->timed_only) look(&run);
-  for (size_t s = 0; good && s < settings->samples && step(&run, each); s++)
+  for (size_t s = 0; good && s < settings->samples && step(&run, each); s++) {
     if (!settings->timed_only) look(&run);
+    trial->cancelled = !spore_progress(settings->progress, (double)(s + 1) / (double)settings->samples, _("running"));
+    if (trial->cancelled) break;
+  }
   if (good) judge(&run);
   for (size_t k = 0; run.mappings && k < SPORE_LOD_COUNT * points->body_count; k++)
     spore_mapping_clear(&run.mappings[k]);

@@ -4,6 +4,7 @@
 #define SPORE_MEASURE_TRIAL_H
 
 #include "core/base/cancel.h"
+#include "core/base/progress.h"
 #include "core/exercise/exercise.h"
 #include "core/sim/world.h"
 
@@ -57,7 +58,8 @@ typedef struct SporeTrialSettings {
   uint32_t seed;           /* of the perturbation */
   bool timed_only;         /* positions, energy and momentum are not looked at */
   SporeExercise *exercise; /* of the world, which begins anew and looks at each step; NULL: none */
-  const SporeCancel *cancel; /* asked at each look, beside what the world asks by itself */
+  const SporeProgress *progress; /* told at each look; NULL: none */
+  const SporeCancel *cancel;     /* asked at each look, beside what the world asks by itself */
 } SporeTrialSettings;
 
 /* What a trial gave; memory of its own. Sample k is k intervals after the start, sample 0 the start. */
