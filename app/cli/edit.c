@@ -326,6 +326,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Turn a body or instrument, with all that is placed on it, about an axis through its middle: liver=z:30 "
           "(may be repeated)"),
        "BODY=AXIS:DEGREES"},
+      {"scale", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.placing.scale,
+       N_("Make an organ larger or smaller about its middle, with its meshes, cells and spheres and all that is placed "
+          "on it: liver=1.2 (may be repeated)"),
+       "BODY=FACTOR"},
       {"align", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.placing.align,
        N_("Move bodies along an axis until their least, middle or greatest coordinates are that of the first: "
           "liver,spleen=y:least (may be repeated)"),
@@ -338,11 +342,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
                  request.fluid || request.mirror || request.port || request.placing.move || request.placing.turn ||
-                 request.placing.align || request.probe;
+                 request.placing.scale || request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
-          "--instrument, --mirror, --fluid, --port, --move, --turn, --align or --probe; give one of them"));
+          "--instrument, --mirror, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
@@ -355,6 +359,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.port);
   g_strfreev(request.placing.move);
   g_strfreev(request.placing.turn);
+  g_strfreev(request.placing.scale);
   g_strfreev(request.placing.align);
   g_free(request.patient);
   g_free(request.output);

@@ -1,4 +1,4 @@
-/* spore edit: moves, turns and aligns bodies. */
+/* spore edit: moves, turns, scales and aligns bodies. */
 #include "app/cli/edit_place.h"
 
 #include <glib/gi18n.h>
@@ -7,6 +7,7 @@
 
 #include "app/cli/scene.h"
 #include "core/author/placement.h"
+#include "core/author/scale_edits.h"
 #include "core/scene/watch_place.h"
 
 /* Adds the bodies of a list of names, apart by commas. */
@@ -30,6 +31,11 @@ static gboolean refuse_turn(const char *text, GError **error) {
   return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
                            _("this is no body, axis and angle; expected BODY=AXIS:DEGREES with the axis x, y or z, "
                              "such as liver=z:30"));
+}
+
+static gboolean refuse_scale(const char *text, GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                           _("this is no body and a factor; expected BODY=FACTOR, such as liver=1.2"));
 }
 
 static gboolean refuse_align(const char *text, GError **error) {
@@ -62,6 +68,13 @@ static gboolean turn(SporeDocument *document, const char *list, const char *valu
          spore_edit_turn(document, bodies, axis, degrees * G_PI / 180, error);
 }
 
+static gboolean scale(SporeDocument *document, const char *list, const char *value, GPtrArray *bodies, GError **error) {
+  char *end = NULL;
+  double factor = g_ascii_strtod(value, &end);
+  if (end == value || *end) return refuse_scale(value, error);
+  return add_bodies(document, "--scale", list, bodies, error) && spore_edit_scale(document, bodies, factor, error);
+}
+
 static gboolean align(SporeDocument *document, const char *list, const char *value, GPtrArray *bodies, GError **error) {
   int axis = 0;
   const char *rest = axis_and_rest(value, &axis);
@@ -92,5 +105,6 @@ static gboolean place_all(SporeDocument *document, char **texts, Place place, Re
 gboolean spore_cli_place(SporeDocument *document, const SporeCliPlacing *placing, GPtrArray *changed, GError **error) {
   return place_all(document, placing->move, move, refuse_move, changed, error) &&
          place_all(document, placing->turn, turn, refuse_turn, changed, error) &&
+         place_all(document, placing->scale, scale, refuse_scale, changed, error) &&
          place_all(document, placing->align, align, refuse_align, changed, error);
 }

@@ -1,4 +1,4 @@
-/* spore edit --move, --turn and --align: bodies with all that is placed on them. */
+/* spore edit --move, --turn, --scale and --align: bodies with all that is placed on them. */
 #ifndef SPORE_APP_CLI_EDIT_PLACE_H
 #define SPORE_APP_CLI_EDIT_PLACE_H
 
@@ -8,6 +8,7 @@
 typedef struct SporeCliPlacing {
   char **move;  /* BODY=X,Y,Z: by so much, m */
   char **turn;  /* BODY=AXIS:DEGREES: about the middle of its box */
+  char **scale; /* BODY,BODY=FACTOR: about the middle of the box around them */
   char **align; /* BODY,BODY=AXIS:least|middle|greatest: with the first */
 } SporeCliPlacing;
 

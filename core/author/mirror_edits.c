@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/asset_stretch.h"
 #include "core/author/edits.h"
 #include "core/author/placement.h"
-#include "core/io/mesh_import.h"
 #include "core/scene/compile.h"
 
 typedef struct Mirror {
@@ -39,80 +39,6 @@ static SporeVec3 image(const Mirror *mirror, SporeVec3 place) {
 
 /* Assets. */
 
-static void flip_points(const Mirror *mirror, double *points, gsize count, gsize stride) {
-  for (gsize i = 0; i < count; i++) points[stride * i + (gsize)mirror->axis] *= -1;
-}
-
-/* Mirrored elements would be inside out. */
-static void swap_corners(guint32 *elements, gsize count, gsize corners) {
-  for (gsize i = 0; i < count; i++) {
-    guint32 kept = elements[corners * i];
-    elements[corners * i] = elements[corners * i + 1];
-    elements[corners * i + 1] = kept;
-  }
-}
-
-static char *mirrored_surface(const Mirror *mirror, const SporeTriangleMesh *from, gsize *size) {
-  SporeTriangleMesh mesh = *from;
-  g_autofree double *vertices = g_memdup2(from->vertices, 3 * from->vertex_count * sizeof *vertices);
-  g_autofree guint32 *triangles = g_memdup2(from->triangles, 3 * from->triangle_count * sizeof *triangles);
-  flip_points(mirror, vertices, from->vertex_count, 3);
-  swap_corners(triangles, from->triangle_count, 3);
-  mesh.vertices = vertices;
-  mesh.triangles = triangles;
-  return spore_off_format(&mesh, size);
-}
-
-static char *mirrored_solid(const Mirror *mirror, const SporeTetrahedralMesh *from, gsize *size) {
-  SporeTetrahedralMesh mesh = *from;
-  g_autofree double *vertices = g_memdup2(from->vertices, 3 * from->vertex_count * sizeof *vertices);
-  g_autofree guint32 *cells = g_memdup2(from->tetrahedra, 4 * from->tetrahedron_count * sizeof *cells);
-  flip_points(mirror, vertices, from->vertex_count, 3);
-  swap_corners(cells, from->tetrahedron_count, 4);
-  mesh.vertices = vertices;
-  mesh.tetrahedra = cells;
-  return spore_medit_format(&mesh, size);
-}
-
-static char *mirrored_spheres(const Mirror *mirror, const SporeSphereSet *from, gsize *size) {
-  SporeSphereSet set = *from;
-  g_autofree double *spheres = g_memdup2(from->spheres, 4 * from->count * sizeof *spheres);
-  flip_points(mirror, spheres, from->count, 4);
-  set.spheres = spheres;
-  return spore_spheres_format(&set, size);
-}
-
-static char *mirrored_curve(const Mirror *mirror, const SporeCurve *from, gsize *size) {
-  SporeCurve curve = *from;
-  g_autofree double *points = g_memdup2(from->points, 4 * from->count * sizeof *points);
-  flip_points(mirror, points, from->count, 4);
-  curve.points = points;
-  return spore_curve_format(&curve, size);
-}
-
-/* The text of the mirrored asset. NULL with an error: it cannot be read. g_free. */
-static char *mirrored_text(const Mirror *mirror, SporeObject *asset, const char **extension, gsize *size,
-                           GError **error) {
-  const char *element = spore_object_type(asset)->element;
-  *extension = element;
-  if (g_str_equal(element, "mesh")) {
-    const SporeTriangleMesh *mesh = spore_document_mesh(mirror->document, asset, error);
-    *extension = "off";
-    return mesh ? mirrored_surface(mirror, mesh, size) : NULL;
-  }
-  if (g_str_equal(element, "tetrahedra")) {
-    const SporeTetrahedralMesh *mesh = spore_document_tetrahedra(mirror->document, asset, error);
-    *extension = "mesh";
-    return mesh ? mirrored_solid(mirror, mesh, size) : NULL;
-  }
-  if (g_str_equal(element, "spheres")) {
-    const SporeSphereSet *set = spore_document_spheres(mirror->document, asset, error);
-    return set ? mirrored_spheres(mirror, set, size) : NULL;
-  }
-  const SporeCurve *curve = spore_document_curve(mirror->document, asset, error);
-  return curve ? mirrored_curve(mirror, curve, size) : NULL;
-}
-
 /* "left" becomes "right", and the other way round; else what is added says it. g_free. */
 static char *name_of_image(const char *name) {
   static const char *const sides[][2] = {{"left", "right"}, {"right", "left"}};
@@ -126,7 +52,9 @@ static char *name_of_image(const char *name) {
 static SporeObject *mirror_asset(const Mirror *mirror, SporeObject *asset, GError **error) {
   gsize size;
   const char *extension;
-  char *text = mirrored_text(mirror, asset, &extension, &size, error);
+  double factors[3] = {1, 1, 1};
+  factors[mirror->axis] = -1;
+  char *text = spore_asset_stretched(mirror->document, asset, factors, &extension, &size, error);
   g_autofree char *name = name_of_image(spore_object_name(asset));
   return text ? spore_edit_put_asset(mirror->document, spore_object_type(asset)->element, name, extension, text, size,
                                      error)

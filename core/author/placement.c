@@ -60,8 +60,8 @@ gboolean spore_body_box(SporeDocument *document, SporeObject *body, double lower
 
 /* What goes along. */
 
-/* How a value follows a motion. */
-typedef enum Kind { PLACE, DIRECTION, ROTATION } Kind;
+/* How a value follows a motion. Lengths (in `before.x`) follow a scaling alone. */
+typedef enum Kind { PLACE, DIRECTION, ROTATION, LENGTH } Kind;
 
 typedef struct Part {
   SporeObject *object;
@@ -143,9 +143,12 @@ static void add_section(SporePlacement *placement, const char *element) {
     SporeObject *object = spore_object_child(section, i);
     for (guint p = 0; p < parameter_count(object); p++) {
       const SporeParameter *parameter = parameter_of(object, p);
-      gboolean place = g_str_equal(parameter->unit ? parameter->unit : "", "m");
+      gboolean place = g_str_equal(/* or a length */
+                                   parameter->unit ? parameter->unit : "", "m");
       if (parameter->type == SPORE_VECTOR && goes(placement, object, parameter->name))
         add_part(placement, object, p, place ? PLACE : DIRECTION);
+      if (parameter->type == SPORE_REAL && place && goes(placement, object, parameter->name))
+        add_part(placement, object, p, LENGTH);
     }
   }
 }
@@ -197,6 +200,14 @@ static SporeVec3 moved(const Part *part, SporePose motion) {
   return spore_quat_to_rotation_vector(spore_quat_multiply(motion.orientation, before));
 }
 
+/* A length of 0 or below has another meaning, and stays. */
+static gboolean put_length(const SporePlacement *placement, const Part *part, double length, GError **error) {
+  char text[G_ASCII_DTOSTR_BUF_SIZE];
+  const char *property = parameter_of(part->object, part->property)->name;
+  return part->before.x <= 0 || spore_document_set_text(placement->document, part->object, property,
+                                                        g_ascii_formatd(text, sizeof text, "%.6g", length), error);
+}
+
 /* Finer than what a hand sets: what ties moved bodies has to fit as before. */
 static gboolean put(const SporePlacement *placement, const Part *part, SporeVec3 value, GError **error) {
   char text[3][G_ASCII_DTOSTR_BUF_SIZE];
@@ -214,7 +225,28 @@ gboolean spore_placement_move(SporePlacement *placement, SporePose motion, GErro
   gboolean turns = fabs(motion.orientation.w) < 1;
   for (guint i = 0; i < placement->parts->len; i++) {
     const Part *part = &g_array_index(placement->parts, Part, i);
+    if (part->kind == LENGTH) continue;
     if (!put(placement, part, part->kind == PLACE || turns ? moved(part, motion) : part->before, error)) return FALSE;
+  }
+  return TRUE;
+}
+
+GPtrArray *spore_placement_bodies(const SporePlacement *placement) {
+  GPtrArray *bodies = g_ptr_array_new();
+  const SporeObject *section = spore_document_section(placement->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(section); i++)
+    if (g_hash_table_contains(placement->moving, spore_object_child(section, i)))
+      g_ptr_array_add(bodies, spore_object_child(section, i));
+  return bodies;
+}
+
+gboolean spore_placement_scale(SporePlacement *placement, double factor, GError **error) {
+  for (guint i = 0; i < placement->parts->len; i++) {
+    const Part *part = &g_array_index(placement->parts, Part, i);
+    SporeVec3 out = spore_vec3_sub(part->before, placement->middle);
+    if (part->kind == LENGTH && !put_length(placement, part, factor * part->before.x, error)) return FALSE;
+    if (part->kind == PLACE && !put(placement, part, spore_vec3_add_scaled(placement->middle, factor, out), error))
+      return FALSE;
   }
   return TRUE;
 }

@@ -24,6 +24,11 @@ SporeVec3 spore_placement_middle(const SporePlacement *placement);
  * so that a drag may call this over and over. Of several commands: call it inside a group. FALSE with a GError: a place
  * would be out of range. */
 gboolean spore_placement_move(SporePlacement *placement, SporePose motion, GError **error);
+/* The bodies that move: those given and the others of their tools, in the order of the scene. g_ptr_array_unref. */
+GPtrArray *spore_placement_bodies(const SporePlacement *placement);
+/* Puts frames and what is placed so many times as far from the middle as they stood, and makes lengths of links and
+ * emitters (radius of a pin, rest length of a spring) as many times as large. Otherwise like spore_placement_move. */
+gboolean spore_placement_scale(SporePlacement *placement, double factor, GError **error);
 /* The motion that turns by an angle, rad, about an axis of length 1 through that place. */
 SporePose spore_placement_turn(SporeVec3 place, SporeVec3 axis, double angle);
 

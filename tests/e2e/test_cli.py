@@ -1519,8 +1519,8 @@ def an_instrument_is_refused_with_a_remedy():
 
 @check
 @alike
-def bodies_are_moved_turned_and_aligned():
-    """A bar and its pins are moved, turned about its middle and aligned with a block; what is no body, way, angle or side is refused, and nothing is written."""
+def bodies_are_moved_turned_scaled_and_aligned():
+    """A bar and its pins are moved, turned about its middle, scaled and aligned with a block; what is no body, way, angle, factor or side is refused, and nothing is written."""
     bar = slim_bar()
     at = bar.with_name("placed.spore")
     text = bar.read_text().replace("</bodies>", '<body name="block" role="unmovable" position="0.1 0.2 0"><collision spheres="felt"/></body></bodies>')
@@ -1539,7 +1539,13 @@ def bodies_are_moved_turned_and_aligned():
     assert near(vector('name="bar"[^>]* rotation="([^"]*)"'), (0, 0, math.pi / 2)) and near(vector('name="end_0"[^>]* point="([^"]*)"'), (0.035, -0.021, -0.016))
     report("edit", at, "--turn", "bar=z:-90", "--align", "bar,block=y:least")
     assert near(vector('name="block"[^>]* position="([^"]*)"'), (0.1, 0, 0))
+    report("edit", at, "--scale", "bar=2")
+    assert near(vector('name="end_0"[^>]* point="([^"]*)"'), (-0.015, 0.004, -0.016)) and 'radius="0.012"' in at.read_text()
+    assert "felt-2" in at.read_text(), "the spheres of the block stay"
+    assert not report("run", at, "--steps", 5)["monitor"]["unsolved"]
     before = at.read_text()
+    refuses("edit", at, "--scale", "bar=0", says=["no factor to scale by"])
+    refuses("edit", at, "--scale", "bar=big", says=["expected BODY=FACTOR"])
     refuses("edit", at, "--move", "bar=0.01,0", says=["expected BODY=X,Y,Z in metres"])
     refuses("edit", at, "--move", "bra=0.01,0,0", says=["there is no body \"bra\"", "bar, block"])
     refuses("edit", at, "--turn", "bar=w:90", says=["expected BODY=AXIS:DEGREES"])
