@@ -1,9 +1,9 @@
-/* Moving, turning and aligning what is selected. */
+/* Moving, turning, scaling and aligning what is selected. */
 #include "core/author/mirror_edits.h"
 #include "core/author/placement.h"
 #include "ui/spore-window-private.h"
 
-static const char *const gizmos[] = {"none", "move", "turn", NULL}; /* by SporeGizmo */
+static const char *const gizmos[] = {"none", "move", "turn", "scale", NULL}; /* by SporeGizmo */
 
 /* The same once more: none. */
 static void change_gizmo(GSimpleAction *action, GVariant *state, gpointer data) {

@@ -186,6 +186,9 @@ static const char *gizmo_hint(SporeWindow *self) {
   if (g_str_equal(gizmo, "turn"))
     return _("Drag a ring to turn what is selected: Ctrl by 15 degrees; X, Y, Z keep to an axis; Escape takes it back; "
              "E ends");
+  if (g_str_equal(gizmo, "scale"))
+    return _("Drag the circle to make what is selected larger or smaller: Ctrl by tenths, with Shift by halves; Escape "
+             "takes it back; R ends");
   return NULL;
 }
 

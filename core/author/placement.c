@@ -74,7 +74,7 @@ struct SporePlacement {
   SporeDocument *document;
   GArray *parts;      /* of Part */
   GHashTable *moving; /* of SporeObject *, the bodies */
-  SporeVec3 middle;
+  SporeVec3 lower, upper, middle;
 };
 
 static const SporeParameter *parameter_of(const SporeObject *object, guint property) {
@@ -176,7 +176,9 @@ SporePlacement *spore_placement_new(SporeDocument *document, const GPtrArray *bo
     for (int k = 0; k < 3; k++) lower[k] = fmin(lower[k], least[k]), upper[k] = fmax(upper[k], most[k]);
     g_hash_table_add(placement->moving, bodies->pdata[i]);
   }
-  placement->middle = spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
+  placement->lower = spore_vec3_load(lower);
+  placement->upper = spore_vec3_load(upper);
+  placement->middle = spore_vec3_scale(0.5, spore_vec3_add(placement->lower, placement->upper));
   add_tools(placement);
   add_bodies(placement);
   add_section(placement, "links");
@@ -189,6 +191,11 @@ void spore_placement_free(SporePlacement *placement) {
   g_array_unref(placement->parts);
   g_hash_table_unref(placement->moving);
   g_free(placement);
+}
+
+void spore_placement_box(const SporePlacement *placement, double lower[3], double upper[3]) {
+  spore_vec3_store(lower, placement->lower);
+  spore_vec3_store(upper, placement->upper);
 }
 
 SporeVec3 spore_placement_middle(const SporePlacement *placement) { return placement->middle; }

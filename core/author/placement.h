@@ -18,7 +18,8 @@ typedef struct SporePlacement SporePlacement;
 SporePlacement *spore_placement_new(SporeDocument *document, const GPtrArray *bodies);
 void spore_placement_free(SporePlacement *placement);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporePlacement, spore_placement_free)
-/* The middle of the box around the bodies themselves, without their tools' others; in the scene, m. */
+/* The box around the bodies themselves, without their tools' others, and its middle; in the scene, m. */
+void spore_placement_box(const SporePlacement *placement, double lower[3], double upper[3]);
 SporeVec3 spore_placement_middle(const SporePlacement *placement);
 /* Puts everything to where that motion of the scene takes it from where it stood: p to R p + t. Motions do not add up,
  * so that a drag may call this over and over. Of several commands: call it inside a group. FALSE with a GError: a place

@@ -2339,7 +2339,7 @@ def red_end(editor):
 
 @check
 def moved_by_the_gizmo():
-    """W shows axes on what is selected: a drag of one moves the body along it alone, with Ctrl by whole millimetres, as one step; Escape takes a drag back; E turns; two bodies are aligned, and one is mirrored."""
+    """W shows axes on what is selected: a drag of one moves the body along it alone, with Ctrl by whole millimetres, as one step; Escape takes a drag back; E turns; R makes it larger, seen before it is let go; two bodies are aligned, and one is mirrored."""
     with start(two_balls("gizmo", '<links><spring name="cord" body_a="left" point_a="-0.035 0.03 0" point_b="0 0.1 0"/></links>')) as editor:
         left, right, above = on_balls(editor)
         assert not editor.enabled("gizmo")
@@ -2376,6 +2376,17 @@ def moved_by_the_gizmo():
         ui.wait(lambda: editor.state("gizmo") == "turn", "E to turn")
         ui.wait(lambda: red_end(editor), "the rings")
         keep_picture(editor, "gizmo-turn")
+        editor.keys("r")
+        grip = ui.wait(lambda: editor.state("gizmo") == "scale" and red_end(editor), "R to scale")
+        editor.mouse("mousemove", *grip, "mousedown", 1, "keydown", "ctrl", "mousemove", grip[0] + 20, grip[1], "mousemove", grip[0] + 44, grip[1])
+        ui.wait(lambda: red_end(editor) and red_end(editor)[0] > grip[0] + 35, "the size to be seen")
+        keep_picture(editor, "gizmo-scale")
+        editor.mouse("mouseup", 1, "keyup", "ctrl")
+        ui.wait(lambda: editor.enabled("undo"), "one step")
+        at, cord = body()
+        assert at == [-0.035, 0, 0] and abs(cord[1] - 0.045) < 1e-9, (at, cord)
+        editor.act("undo")
+        ui.wait(lambda: not editor.enabled("undo"), "one step to undo")
         editor.act("gizmo", "s", "none")
         ui.wait(lambda: not red_end(editor), "the gizmo to go")
         editor.act("select-organs")

@@ -260,11 +260,11 @@ static const struct {
   const char *action; /* detailed */
   gboolean presented; /* only while the view is shown alone */
 } keys[] = {
-    {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},        {GDK_KEY_i, "win.isolate"},
-    {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},       {GDK_KEY_0, "win.view::camera"},
-    {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"}, {GDK_KEY_7, "win.view::top"},
-    {GDK_KEY_e, "win.show-guide", TRUE},  {GDK_KEY_x, "win.swap-views"},  {GDK_KEY_w, "win.gizmo::move"},
-    {GDK_KEY_e, "win.gizmo::turn"},       {GDK_KEY_v, "win.second-view"},
+    {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},         {GDK_KEY_i, "win.isolate"},
+    {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},        {GDK_KEY_0, "win.view::camera"},
+    {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"},  {GDK_KEY_7, "win.view::top"},
+    {GDK_KEY_e, "win.show-guide", TRUE},  {GDK_KEY_x, "win.swap-views"},   {GDK_KEY_w, "win.gizmo::move"},
+    {GDK_KEY_e, "win.gizmo::turn"},       {GDK_KEY_r, "win.gizmo::scale"}, {GDK_KEY_v, "win.second-view"},
 };
 
 guint spore_viewport_key_of(const char *action) {

@@ -58,6 +58,7 @@ struct _SporeViewport {
   int gizmo_axis;            /* of the drag: 0 to 2, or 3: free */
   SporePlacement *placement; /* what the drag moves */
   SporePose motion;          /* by which it has moved it */
+  double factor;             /* by which it will scale it */
   SporeViewportPlaces places;
   guint place_held; /* by the drag */
   SporeVec3 place_before;

@@ -42,8 +42,8 @@ typedef struct SporeViewportPlaces {
 
 typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEWPORT_TOOL_EDIT } SporeViewportTool;
 
-/* Handles over the picture by which what is selected is moved or turned. */
-typedef enum { SPORE_GIZMO_NONE, SPORE_GIZMO_MOVE, SPORE_GIZMO_TURN } SporeGizmo;
+/* Handles over the picture by which what is selected is moved, turned or scaled. */
+typedef enum { SPORE_GIZMO_NONE, SPORE_GIZMO_MOVE, SPORE_GIZMO_TURN, SPORE_GIZMO_SCALE } SporeGizmo;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is being opened: the welcome is hidden. */
