@@ -187,6 +187,12 @@ static void change_overlay(GSimpleAction *action, GVariant *state, gpointer data
   spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options);
 }
 
+static void change_reach(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  spore_viewport_set_reach(SPORE_VIEWPORT(self->viewport), g_variant_get_boolean(state));
+}
+
 static void change_figures(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
   g_simple_action_set_state(action, state);
@@ -353,6 +359,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-spheres", NULL, NULL, "false", change_overlay},
       {"show-tetrahedra", NULL, NULL, "false", change_overlay},
       {"show-contacts", NULL, NULL, "false", change_overlay},
+      {"show-reach", NULL, NULL, "false", change_reach},
       {"show-figures", NULL, NULL, "false", change_figures},
       {"show-outliner", NULL, NULL, "true", change_panel},
       {"show-inspector", NULL, NULL, "true", change_panel},

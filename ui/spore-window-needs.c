@@ -4,6 +4,7 @@
 #include "core/author/exercise_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
+#include "core/scene/port_reach.h"
 #include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
 
@@ -39,6 +40,7 @@ typedef enum Need {
   MEASURES = 1 << 27,
   CAMERA = 1 << 28,
   EXERCISE = 1 << 29,
+  PORTS = 1 << 30,
 } Need;
 
 /* In the order in which they are told. */
@@ -73,6 +75,7 @@ static const struct {
     {DRAFT | PICKING, N_("nothing is being picked")},
     {HANDS, N_("the scene has no instrument yet; add one")},
     {CAMERA, N_("the scene has no camera yet; add an endoscope")},
+    {PORTS, N_("no instrument passes through a port yet; add one with the place where it enters")},
     {EXERCISE, N_("the scene has no exercise yet; add a step in the Exercise tab")},
 };
 
@@ -103,6 +106,7 @@ static const struct {
     {"tie-link", LINK},
     {"lead", HANDS},
     {"lead-next", HANDS},
+    {"show-reach", PORTS | BODIES},
     {"swap-views", CAMERA | BODIES},
     {"second-view", CAMERA | BODIES},
     {"turn-optic", CAMERA},
@@ -209,9 +213,10 @@ static guint of_run(SporeWindow *self) {
 static guint of_scene(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   g_autoptr(GPtrArray) hands = spore_hands(document);
+  g_autoptr(GArray) ports = spore_ports_of(document, NULL);
   gboolean measuring = spore_accuracy_is_measuring(SPORE_ACCURACY(self->accuracy));
   return (spore_object_child_count(spore_document_section(document, "bodies")) ? BODIES : 0) |
-         (hands->len ? HANDS : 0) |
+         (hands->len ? HANDS : 0) | (ports->len ? PORTS : 0) |
          (spore_object_child_of(spore_document_section(document, "tools"), "camera") ? CAMERA : 0) |
          (spore_object_child_count(spore_document_section(document, "exercise")) ? EXERCISE : 0) |
          (measuring ? 0 : UNMEASURED) | (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |

@@ -29,6 +29,7 @@ static const struct {
     {"win.show-spheres", N_("Show or hide collision spheres")},
     {"win.show-tetrahedra", N_("Show or hide tetrahedra")},
     {"win.show-contacts", N_("Show or hide contact forces")},
+    {"win.show-reach", N_("Show or hide what instruments reach through their ports")},
     {"win.show-figures", N_("Show or hide what a step costs")},
     {"win.clear-measures", N_("Remove all measures")},
     {"win.cut::none", N_("Look inside: nothing is hidden")},

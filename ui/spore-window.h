@@ -35,9 +35,9 @@
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
- *               show-contacts, show-figures (state), frame, view [s "front", "right" or "top"], show-outliner,
- *               show-inspector, show-problems, present (state), show-guide (state: the steps of the exercise while
- *               present is on), filter, measure [s "distance", "angle" or "volume"],
+ *               show-contacts, show-reach, show-figures (state), frame, view [s "front", "right" or "top"],
+ *               show-outliner, show-inspector, show-problems, present (state), show-guide (state: the steps of the
+ *               exercise while present is on), filter, measure [s "distance", "angle" or "volume"],
  *               swap-views (to the scene's camera and back), second-view (state: the other one, too),
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)

@@ -5,14 +5,16 @@
 
 #include "app/cli/cli.h"
 #include "app/cli/scene.h"
+#include "core/scene/port_reach.h"
 #include "ui/render/filming.h"
+#include "ui/render/stage_ports.h"
 
 #define LARGEST_SIDE 8192
 #define LARGEST_FPS 1000
 #define LARGEST_SPEED 1000
 
 typedef struct RenderOptions {
-  char *size, *output, *camera, *time, *beside, *clip;
+  char *size, *output, *camera, *time, *beside, *clip, *reach;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
   gboolean spheres, tetrahedra;
@@ -95,6 +97,7 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                             .fps = 30,
                             .speed = 1,
                             .camera = options->camera,
+                            .ports = options->reach,
                             .shown = {TRUE, options->spheres, options->tetrahedra, FALSE},
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
@@ -159,6 +162,35 @@ static void change_levels(gpointer data, guint simulation) {
   spore_level_changes_post(runs->levels[simulation], runs->runs[simulation]->simulation->world);
 }
 
+static void say_reach(SporeCli *cli, SporeDocument *document, const GArray *ports, const SporeObject *body) {
+  double share;
+  if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE ||
+      !spore_ports_share(document, (const SporePortReach *)(void *)ports->data, ports->len, body, &share))
+    return;
+  g_autofree char *part = spore_port_share_text(share);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "body", spore_object_name(body));
+  spore_cli_number(cli, "share", share);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("  \"%s\": %s\n"), spore_object_name(body), part);
+}
+
+/* The legend of the tint, which a picture has no room for. */
+static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *name, GError **error) {
+  g_autoptr(GArray) ports = spore_stage_find_ports(document, name, error);
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  if (!ports) return FALSE;
+  if (ports->len == 1)
+    spore_cli_say(cli, _("Reached at the start through \"%s\" (the rest is blue):\n"),
+                  spore_object_name(g_array_index(ports, SporePortReach, 0).port));
+  else spore_cli_say(cli, _("Reached at the start through one of %u ports (the rest is blue):\n"), ports->len);
+  spore_cli_open_array(cli, "reach");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    say_reach(cli, document, ports, spore_object_child(bodies, i));
+  spore_cli_close_array(cli);
+  return TRUE;
+}
+
 static void tell(SporeCli *cli, const char *output, const SporeFilmed *filmed) {
   spore_cli_count(cli, "width", filmed->width);
   spore_cli_count(cli, "height", filmed->height);
@@ -184,6 +216,7 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   filming.before_step = change_levels;
   filming.data = &runs;
   SporeFilmed filmed;
+  if (options->reach && !tell_reach(cli, runs.runs[0]->document, options->reach, &error)) return spore_cli_fail(error);
   if (!spore_filming_run(&filming, spore_cli_progress(cli), &filmed, &error)) return spore_cli_fail(error);
   tell(cli, options->output, &filmed);
   g_free(filmed.gl_renderer);
@@ -191,8 +224,8 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
 }
 
 static void clear_options(RenderOptions *options) {
-  char *const texts[] = {options->clip,   options->size, options->output, options->camera, options->time,
-                         options->beside, options->from, options->fps,    options->speed};
+  char *const texts[] = {options->clip, options->reach,  options->size, options->output, options->camera,
+                         options->time, options->beside, options->from, options->fps,    options->speed};
   for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
   g_strfreev(options->level);
   spore_scene_options_clear(&options->scene);
@@ -200,9 +233,13 @@ static void clear_options(RenderOptions *options) {
 
 int spore_command_render(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
-      {"width", N_("of the picture, pixels")}, {"height", N_("of the picture, pixels")},
-      {"frames", N_("number of pictures")},    {"length_s", N_("of the film or the row, s; 0: a single picture")},
-      {"gl_renderer", N_("what drew it")},     {NULL, NULL}};
+      {"width", N_("of the picture, pixels")},
+      {"height", N_("of the picture, pixels")},
+      {"frames", N_("number of pictures")},
+      {"length_s", N_("of the film or the row, s; 0: a single picture")},
+      {"gl_renderer", N_("what drew it")},
+      {"reach", N_("with --reach, of each organ: body, share of its surface that is reached at the start")},
+      {NULL, NULL}};
   static const SporeCommandInfo info = {
       "render", "SCENE", N_("Makes a picture of a scene (PNG), a row of pictures, or a film (WebM)."), 1, 1, members};
   RenderOptions options = {0};
@@ -229,6 +266,9 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"clip", 0, 0, G_OPTION_ARG_STRING, &options.clip,
        N_("Hide what lies beyond a plane: further along the direction NX,NY,NZ than D metres from the origin"),
        "NX,NY,NZ,D"},
+      {"reach", 0, 0, G_OPTION_ARG_STRING, &options.reach,
+       N_("Show what is reached through this port, or through all of them (all): cones, and what none reaches in blue"),
+       "PORT"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),

@@ -113,7 +113,8 @@ gboolean spore_edit_move_port(SporeDocument *document, SporeObject *port, SporeV
 
 static void say(GString *text, SporeDocument *document, const SporePortReach *reach, const SporeObject *body) {
   double share;
-  if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE || !spore_port_share(document, reach, body, &share))
+  if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE ||
+      !spore_ports_share(document, reach, 1, body, &share))
     return;
   g_autofree char *part = spore_port_share_text(share);
   if (text->len) g_string_append_c(text, '\n');

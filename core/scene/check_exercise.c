@@ -46,7 +46,7 @@ static gboolean find_target(const SporeObject *step, Target *target) {
 
 static gboolean gets_to(SporeDocument *document, const SporePortReach *reach, const Target *target) {
   double share;
-  if (target->body) return !spore_port_share(document, reach, target->body, &share) || share > 0;
+  if (target->body) return !spore_ports_share(document, reach, 1, target->body, &share) || share > 0;
   SporeVec3 way = spore_vec3_sub(target->place, reach->pivot);
   double depth = CLAMP(spore_vec3_dot(way, reach->along), reach->shallowest, reach->deepest);
   SporeVec3 middle = spore_vec3_add_scaled(reach->pivot, depth, reach->along);

@@ -85,9 +85,9 @@ gboolean spore_port_reach(SporeDocument *document, SporeObject *port, SporePortR
                                              : body,
                             .pivot = spore_object_vector(port, "point"),
                             .along = spore_vec3_scale(1 / spore_vec3_length(direction), direction),
-                            .angle = SPORE_PORT_ANGLE_RAD,
-                            .shallowest = SPORE_PORT_SHALLOWEST_M,
-                            .deepest = SPORE_PORT_DEEPEST_M};
+                            .angle = spore_object_number(port, "reach_angle"),
+                            .shallowest = spore_object_number(port, "reach_least"),
+                            .deepest = spore_object_number(port, "reach_most")};
   /* The file says a line; into the patient is where the instrument's origin lies, with what it works with. */
   SporeVec3 inward = spore_vec3_sub(spore_body_pose(body).position, reach->pivot);
   if (spore_vec3_dot(inward, reach->along) < 0) reach->along = spore_vec3_scale(-1, reach->along);
@@ -135,8 +135,14 @@ gboolean spore_port_reaches(const SporePortReach *reach, SporeVec3 place) {
          spore_vec3_dot(way, reach->along) >= depth * cos(reach->angle);
 }
 
-gboolean spore_port_share(SporeDocument *document, const SporePortReach *reach, const SporeObject *body,
-                          double *share) {
+static gboolean any_reaches(const SporePortReach *ports, guint count, SporeVec3 place) {
+  for (guint i = 0; i < count; i++)
+    if (spore_port_reaches(&ports[i], place)) return TRUE;
+  return FALSE;
+}
+
+gboolean spore_ports_share(SporeDocument *document, const SporePortReach *ports, guint count, const SporeObject *body,
+                           double *share) {
   const SporeTriangleMesh *mesh = drawn_mesh(document, body);
   SporePose pose = spore_body_pose(body);
   double within = 0, whole = 0;
@@ -145,7 +151,7 @@ gboolean spore_port_share(SporeDocument *document, const SporePortReach *reach, 
     guint reached = 0;
     for (guint k = 0; k < 3; k++) {
       corners[k] = spore_pose_apply(pose, spore_vec3_load(mesh->vertices + 3 * mesh->triangles[3 * t + k]));
-      reached += (guint)spore_port_reaches(reach, corners[k]);
+      reached += (guint)any_reaches(ports, count, corners[k]);
     }
     SporeVec3 across = spore_vec3_cross(spore_vec3_sub(corners[1], corners[0]), spore_vec3_sub(corners[2], corners[0]));
     whole += spore_vec3_length(across);
@@ -159,4 +165,36 @@ char *spore_port_share_text(double share) {
   if (share <= 0) return g_strdup(_("nothing"));
   if (share >= 1 - 1e-12) return g_strdup(_("all"));
   return g_strdup_printf(_("%.0f %%"), CLAMP(100 * share, 1, 99));
+}
+
+/* The cone as lines. */
+
+#define SIDES 12 /* lines of the mantle */
+#define RINGS 3  /* across them, at equal depths, and one at the least depth */
+#define ARCS 48  /* of a ring */
+
+static SporeVec3 on_mantle(const SporePortReach *reach, double depth, double turn) {
+  SporeVec3 u = spore_vec3_any_across(reach->along), v = spore_vec3_cross(reach->along, u);
+  SporeVec3 aside = spore_vec3_add(spore_vec3_scale(cos(turn), u), spore_vec3_scale(sin(turn), v));
+  SporeVec3 way = spore_vec3_add_scaled(spore_vec3_scale(sin(reach->angle), aside), cos(reach->angle), reach->along);
+  return spore_vec3_add_scaled(reach->pivot, depth, way);
+}
+
+static void add_line(double **points, SporeVec3 from, SporeVec3 to) {
+  spore_vec3_store(*points, from);
+  spore_vec3_store(*points + 3, to);
+  *points += 6;
+}
+
+void spore_port_lines(const SporePortReach *reach, double *points) {
+  _Static_assert(SPORE_PORT_LINES == SIDES + (RINGS + 1) * ARCS + 1, "a line for each side and arc, and the shaft");
+  double way = reach->deepest - reach->shallowest;
+  for (int side = 0; side < SIDES; side++)
+    add_line(&points, on_mantle(reach, reach->shallowest, side * 2 * G_PI / SIDES),
+             on_mantle(reach, reach->deepest, side * 2 * G_PI / SIDES));
+  for (int ring = 0; ring <= RINGS; ring++)
+    for (int arc = 0; arc < ARCS; arc++)
+      add_line(&points, on_mantle(reach, reach->shallowest + way * ring / RINGS, arc * 2 * G_PI / ARCS),
+               on_mantle(reach, reach->shallowest + way * ring / RINGS, (arc + 1) * 2 * G_PI / ARCS));
+  add_line(&points, reach->pivot, reach->tip);
 }

@@ -5,15 +5,6 @@
 
 #include "core/scene/document.h"
 
-/* Half the angle of the cone, rad. Lum, Rosen, Sinanan and Hannaford (IEEE Trans. Biomed. Eng. 53(7), 2006) measured
- * how surgeons move instruments in a cone of 60 degrees for 95 % of the time, and that 90 degrees reach the whole
- * abdomen. */
-#define SPORE_PORT_ANGLE_RAD 0.7853981633974483
-/* From the port to the tip, m. Nearer, the jaws are in the cannula still; farther, the handle would meet the cannula:
- * instruments are 330 mm long, of which 30 mm stay in the cannula outside the wall. */
-#define SPORE_PORT_SHALLOWEST_M 0.02
-#define SPORE_PORT_DEEPEST_M 0.30
-
 typedef struct SporePortReach {
   SporeObject *port, *body, *tool; /* body: that the shaft belongs to; tool: that is named after it, or the body */
   SporeVec3 pivot, along;          /* in the scene, m; the middle of the cone, into the patient, of length 1 */
@@ -35,8 +26,13 @@ gboolean spore_port_moved(const SporePortReach *reach, SporeVec3 pivot, SporePor
 
 /* Whether the tip gets to a place of the scene, m, as far as angle and depth go. */
 gboolean spore_port_reaches(const SporePortReach *reach, SporeVec3 place);
-/* Which part of the drawn surface of a body lies within reach, 0 to 1 of its area. FALSE: the body shows no mesh. */
-gboolean spore_port_share(SporeDocument *document, const SporePortReach *reach, const SporeObject *body, double *share);
+/* Which part of the drawn surface of a body lies within reach of at least one of `count` ports, 0 to 1 of its area.
+ * FALSE: the body shows no mesh. */
+gboolean spore_ports_share(SporeDocument *document, const SporePortReach *ports, guint count, const SporeObject *body,
+                           double *share);
+/* Lines that show a cone, SPORE_PORT_LINES x 2 points x 3, m: its mantle, rings across it, and the shaft. */
+#define SPORE_PORT_LINES (12 + 4 * 48 + 1)
+void spore_port_lines(const SporePortReach *reach, double *points);
 /* A share in words, translated: "83 %"; "all" and "nothing" are said only where nothing and all are missing. g_free. */
 char *spore_port_share_text(double share);
 

@@ -52,6 +52,11 @@ static gboolean is_shown_alone(const char *element) {
   return g_strv_contains(elements, element);
 }
 
+/* How far an instrument gets through a port is shown to authors; a run does not keep to it. */
+static gboolean is_of_a_run(const SporeObjectType *type, const char *property) {
+  return strcmp(type->element, "port") != 0 || !g_str_has_prefix(property, "reach_");
+}
+
 /* Properties of a body's fidelity that advice is not about. */
 static gboolean is_advice(const SporeObjectType *type, const char *property) {
   static const char *const properties[] = {"mode", "advice", "advice_hash", NULL};
@@ -63,8 +68,11 @@ static guint64 hash_object(guint64 hash, SporeDocument *document, SporeObject *o
   if (is_shown_alone(type->element)) return hash;
   if (!advised && strcmp(type->element, "fidelity") == 0 && spore_object_child_count(object) == 0) return hash;
   hash = hash_text(hash, type->element);
-  for (guint i = 0; i < type->table->count; i++)
-    if (advised || !is_advice(type, type->table->parameters[i].name)) hash = hash_property(hash, document, object, i);
+  for (guint i = 0; i < type->table->count; i++) {
+    const char *property = type->table->parameters[i].name;
+    if (is_of_a_run(type, property) && (advised || !is_advice(type, property)))
+      hash = hash_property(hash, document, object, i);
+  }
   for (guint i = 0; i < spore_object_child_count(object); i++)
     hash = hash_object(hash, document, spore_object_child(object, i), advised);
   return hash_text(hash, "/"); /* no element has that name: the object ends */

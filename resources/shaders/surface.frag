@@ -26,6 +26,15 @@ float vessel(vec3 p, float width) {
   return 1.0 - smoothstep(0.3 * width, width, abs(n.x - 0.5) / (0.15 + length(n.yzw)));
 }
 
+bool is_reached(vec3 place) {
+  for (int i = 0; i < int(tint.w); i++) {
+    vec3 way = place - cone_pivot[i].xyz, limits = cone_limits[i].xyz;
+    float depth = length(way);
+    if (depth >= limits.y && depth <= limits.z && dot(way, cone_along[i].xyz) >= depth * limits.x) return true;
+  }
+  return false;
+}
+
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
@@ -57,6 +66,7 @@ void main() {
 #endif
     bump = mat3(rotation) * bump;
     bump -= normal * dot(normal, bump);
+    if (tint.w > 0.0 && !is_reached(v_position)) albedo = mix(albedo, tint.rgb, 0.75);
     outcome = shade_tissue(max(albedo, 0.0), wetness, v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
   }
   // Behind a cut, the inside is told from the outside.

@@ -6,6 +6,7 @@
 #include "core/math/quat.h"
 #include "core/scene/camera_sight.h"
 #include "core/scene/compile.h"
+#include "core/scene/run_hash.h"
 #include "tests/scene/fixture.h"
 
 #define ROUNDED 3e-4 /* m: places are written to a tenth of a millimetre, angles to a tenth of a milliradian */
@@ -58,7 +59,7 @@ static void test_cone(void) {
   for (int side = 0; side < 4; side++) {
     SporeVec3 across = {cos(side * G_PI / 2), 0, sin(side * G_PI / 2)};
     for (int out = 0; out < 2; out++) {
-      double angle = SPORE_PORT_ANGLE_RAD + (out ? 1e-3 : -1e-3);
+      double angle = G_PI / 4 + (out ? 1e-3 : -1e-3);
       SporeVec3 way = spore_vec3_add_scaled(spore_vec3_scale(sin(angle), across), -cos(angle), (SporeVec3){0, 1, 0});
       g_assert_cmpint(spore_port_reaches(&reach, spore_vec3_add_scaled(reach.pivot, 0.1, way)), ==, !out);
     }
@@ -74,11 +75,56 @@ static void test_cone(void) {
   scene_free(&scene);
 }
 
+static void set(const Scene *scene, const char *property, const char *value) {
+  g_autoptr(GError) error = NULL;
+  spore_document_set_text(scene->document, scene->port, property, value, &error);
+  g_assert_no_error(error);
+}
+
+/* A port of its own reach; a run is the same with it. */
+static void test_own_reach(void) {
+  Scene scene = scene_new("probe", (SporeVec3){0, 0.2, 0});
+  SporePortReach reach = reach_of(&scene);
+  SporeVec3 aside = {0.09, 0.1, 0}, deep = {0, -0.11, 0};
+  g_assert_true(spore_port_reaches(&reach, aside));
+  g_assert_false(spore_port_reaches(&reach, deep));
+  guint64 hash = spore_document_run_hash(scene.document);
+  set(&scene, "reach_angle", "0.5");
+  set(&scene, "reach_most", "0.35");
+  set(&scene, "reach_least", "0.1");
+  reach = reach_of(&scene);
+  g_assert_false(spore_port_reaches(&reach, aside));
+  g_assert_true(spore_port_reaches(&reach, deep));
+  g_assert_false(spore_port_reaches(&reach, (SporeVec3){0, 0.11, 0}));
+  g_assert_cmpuint(spore_document_run_hash(scene.document), ==, hash);
+  set(&scene, "friction", "0.5");
+  g_assert_cmpuint(spore_document_run_hash(scene.document), !=, hash);
+  scene_free(&scene);
+}
+
+/* The lines of a cone lie at its angle and between its depths, the last one on the shaft. */
+static void test_lines(void) {
+  Scene scene = scene_new("probe", (SporeVec3){0, 0.2, 0});
+  SporePortReach reach = reach_of(&scene);
+  double points[6 * SPORE_PORT_LINES];
+  spore_port_lines(&reach, points);
+  for (guint i = 0; i < 2 * (SPORE_PORT_LINES - 1); i++) {
+    SporeVec3 way = spore_vec3_sub(spore_vec3_load(points + 3 * i), reach.pivot);
+    double depth = spore_vec3_length(way);
+    g_assert_cmpfloat(depth, >, 0.02 - 1e-9);
+    g_assert_cmpfloat(depth, <, 0.3 + 1e-9);
+    g_assert_cmpfloat_with_epsilon(-way.y / depth, cos(G_PI / 4), 1e-9);
+  }
+  assert_near(spore_vec3_load(points + 6 * (SPORE_PORT_LINES - 1)), reach.pivot);
+  assert_near(spore_vec3_load(points + 6 * (SPORE_PORT_LINES - 1) + 3), reach.tip);
+  scene_free(&scene);
+}
+
 static double share_of(const Scene *scene) {
   double share = -1;
   SporePortReach reach = reach_of(scene);
   g_assert_true(
-      spore_port_share(scene->document, &reach, spore_document_find(scene->document, "body", "organ"), &share));
+      spore_ports_share(scene->document, &reach, 1, spore_document_find(scene->document, "body", "organ"), &share));
   return share;
 }
 
@@ -94,6 +140,22 @@ static void test_share(void) {
     g_assert_cmpfloat_with_epsilon(share_of(&scene), cases[i].share, 1e-9);
     scene_free(&scene);
   }
+}
+
+/* What one of several ports reaches is reached: from above the top, from below the bottom. */
+static void test_share_of_several(void) {
+  Scene scene = scene_new("probe", (SporeVec3){0, 0.3, 0});
+  SporeObject *organ = spore_document_find(scene.document, "body", "organ");
+  SporePortReach ports[2] = {reach_of(&scene), reach_of(&scene)};
+  double share;
+  ports[1].pivot.y = -0.3, ports[1].along.y = 1;
+  g_assert_true(spore_ports_share(scene.document, ports, 2, organ, &share));
+  g_assert_cmpfloat_with_epsilon(share, 1, 1e-9);
+  g_assert_true(spore_ports_share(scene.document, ports + 1, 1, organ, &share));
+  g_assert_cmpfloat_with_epsilon(share, 0.5, 1e-9);
+  g_assert_true(spore_ports_share(scene.document, NULL, 0, organ, &share));
+  g_assert_cmpfloat(share, ==, 0);
+  scene_free(&scene);
 }
 
 static void test_sentences(void) {
@@ -210,7 +272,10 @@ static void test_runs(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/author/ports/cone", test_cone);
+  g_test_add_func("/author/ports/own_reach", test_own_reach);
+  g_test_add_func("/author/ports/lines", test_lines);
   g_test_add_func("/author/ports/share", test_share);
+  g_test_add_func("/author/ports/share_of_several", test_share_of_several);
   g_test_add_func("/author/ports/sentences", test_sentences);
   g_test_add_func("/author/ports/move", test_move);
   g_test_add_func("/author/ports/move_endoscope", test_move_endoscope);

@@ -145,6 +145,35 @@ static void test_clip(void) {
   bench_close(&bench);
 }
 
+/* What lies in no cone is tinted, and nothing else: by depth, by angle, and where another cone reaches it. */
+static void test_tint(void) {
+  const SporeSurfaceStyle style = {{0.7f, 0.02f, 0.02f}, 0, SPORE_MATERIAL_TISSUE, FALSE, FALSE};
+  const SporeClip none = {0};
+  const SporeCone cones[3] = {{{0, 0.2, 0}, {0, -1, 0}, 0.8, 0.02, 0.2},
+                              {{0, -0.2, 0}, {0, 1, 0}, 0.8, 0.02, 0.205},
+                              {{-0.1, 0, 0.04}, {0, 1, 0}, 0.8, 0.02, 0.3}};
+  static const struct {
+    guint first, count;
+    gboolean above, below;
+  } cases[] = {
+      {0, 0, FALSE, FALSE}, {0, 1, FALSE, TRUE}, {1, 1, TRUE, FALSE}, {0, 2, FALSE, FALSE}, {2, 1, TRUE, TRUE}};
+  Bench bench = bench_open();
+  SporeTriangleMesh mesh = make_organ(0.05);
+  spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles, mesh.triangle_count,
+                             &style);
+  for (guint i = 0; i < 2 * G_N_ELEMENTS(cases); i++) {
+    gboolean antialias = i >= G_N_ELEMENTS(cases);
+    guint at = i % G_N_ELEMENTS(cases);
+    spore_renderer_tint_beyond(bench.renderer, cones + cases[at].first, cases[at].count);
+    Picture picture = draw_clipped(&bench, &none, antialias);
+    g_assert_cmpint(is_blue(&picture, 100, 75 - 16), ==, cases[at].above);
+    g_assert_cmpint(is_blue(&picture, 100, 75 + 16), ==, cases[at].below);
+    picture_clear(&picture);
+  }
+  spore_triangle_mesh_clear(&mesh);
+  bench_close(&bench);
+}
+
 /* Far from the world's origin single precision no longer resolves millimetres: the same picture must come out. */
 static void test_far_from_the_origin(void) {
   const SporeSurfaceStyle style = {{0.45f, 0.09f, 0.075f}, 0.5f, FALSE, FALSE, FALSE};
@@ -289,6 +318,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/impostors-fast", test_impostors_fast);
   g_test_add_func("/render/renderer/impostors-full", test_impostors_full);
   g_test_add_func("/render/renderer/clip", test_clip);
+  g_test_add_func("/render/renderer/tint", test_tint);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);

@@ -1,6 +1,7 @@
 """test_journeys.py EDITOR FEATURES: what a user does in the editor, from the empty window to the saved scene."""
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -2287,12 +2288,20 @@ def every_link_is_picked():
             ui.wait(lambda: not editor.row(f"left_{element}"), "the link to be undone")
 
 
+def blue(editor):
+    """Pixels of the view, below its buttons, in the colour of what no port reaches."""
+    pixels, step, row, width, height = picture_of_view(editor, 100)
+    return sum(pixels[at + 2] > pixels[at] + 50 and pixels[at + 2] > 70
+               for line in range(height) for at in range(line * row, line * row + width * step, step))
+
+
 @check
 def port_moved_in_the_view():
-    """The cone of a port shows what its instrument reaches, and the inspector says it; the port is dragged in the view, as one step, and its instrument goes with it; Escape takes a drag back."""
+    """The cone of a port shows what its instrument reaches, and the inspector says it; the port is dragged in the view, as one step, and its instrument goes with it; led close to a surface it lies on that; Escape takes a drag back. Reach tints what no port reaches, and nothing else."""
     path = two_balls("port")
     text = path.read_text()
-    probe = '<body name="probe" role="active" position="0 0.06 0"><visual mesh="ball"/></body>'
+    probe = '<body name="probe" role="active" position="0 0.06 0"><visual mesh="ball"/></body>' \
+            '<body name="wall" role="unmovable" position="-0.07 0.2 -0.025"><visual mesh="ball"/></body>'
     text = text.replace("</bodies>", probe + "</bodies><links><port name=\"entry\" body_a=\"probe\" point=\"0 0.2 0\"/></links>"
                         "<tools><probe name=\"probe\" body=\"probe\" device=\"mouse\"/>"
                         "<camera name=\"over\" position=\"0 0.2 0.6\" target=\"0 0.2 0\"/></tools><devices><mouse name=\"mouse\"/></devices>")
@@ -2321,10 +2330,26 @@ def port_moved_in_the_view():
         ui.wait(lambda: editor.enabled("undo"), "one step")
         place, rotation = port()
         assert place[0] > 0.01 and abs(place[1] - 0.2) < 1e-3 and rotation is not None, (place, rotation)
+        assert abs(place[2]) < 1e-3, f"there is no surface beside it: {place}"
         keep_picture(editor, "port-moved")
+        editor.act("undo")
+        ui.wait(lambda: port() == before, "the step to be undone")
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", -30, 0, "mousemove_relative", "--", -30, 0, "mouseup", 1)
+        ui.wait(lambda: editor.enabled("undo"), "one step")
+        place, _ = port()
+        off = math.dist(place, (-0.07, 0.2, -0.025))
+        assert abs(off - 0.03) < 1e-3 and abs(place[2]) > 1e-3, f"it lies on the wall: {place}, {off}"
+        keep_picture(editor, "port-on-surface")
         editor.act("undo")
         ui.wait(lambda: not editor.enabled("undo"), "one step to undo")
         assert port() == before
+        axis = blue(editor)
+        assert not editor.state("show-reach")
+        editor.press(editor.find("toggle button", "^Reach$"))
+        ui.wait(lambda: blue(editor) > axis + 300, "the wall beside the cone to be tinted")
+        keep_picture(editor, "reach")
+        editor.act("show-reach")
+        ui.wait(lambda: blue(editor) < axis + 50, "the tint to go")
 
 
 def red_end(editor):

@@ -71,6 +71,7 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
   for (guint i = 0; done && i < filming->count; i++)
     done =
         spore_panes_add(panes, filming->documents[i], filming->simulations[i], filming->camera, &filming->shown, error);
+  if (done && filming->ports) done = spore_panes_show_ports(panes, filming->ports, error);
   SporeReel *reel = NULL;
   if (done) reel = spore_reel_new(filming->file, spore_panes_width(panes), filming->height, filming->fps, error);
   guint64 count = count_pictures(filming);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/colour.h"
+
 #define VIGNETTE 0.62f
 
 /* Depth range, m along the view, of everything visible. */
@@ -67,13 +69,34 @@ void spore_frame_clip(const SporeFrame *frame, gboolean clips) {
   else glDisable(GL_CLIP_DISTANCE0);
 }
 
-void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables,
+const double spore_tint_colour[3] = {0.27, 0.45, 0.88}; /* no tissue has it */
+
+/* The cones in view space, with the eye at the origin. */
+static void set_cones(SporeFrame *frame, const SporeCanvas *canvas, SporeVec3 right, SporeVec3 up, SporeVec3 forward) {
+  SporeFrameBlock *block = &frame->block;
+  for (int k = 0; k < 3; k++) block->tint[k] = (float)spore_linear_light(spore_tint_colour[k]);
+  block->tint[3] = (float)canvas->cone_count;
+  for (guint i = 0; i < canvas->cone_count; i++) {
+    const SporeCone *cone = &canvas->cones[i];
+    SporeVec3 pivot = spore_vec3_sub(cone->pivot, frame->eye), along = cone->along;
+    float *out = block->pivot[i];
+    out[0] = (float)spore_vec3_dot(pivot, right), out[1] = (float)spore_vec3_dot(pivot, up);
+    out[2] = (float)-spore_vec3_dot(pivot, forward);
+    out = block->along[i];
+    out[0] = (float)spore_vec3_dot(along, right), out[1] = (float)spore_vec3_dot(along, up);
+    out[2] = (float)-spore_vec3_dot(along, forward);
+    out = block->limits[i];
+    out[0] = (float)cos(cone->angle), out[1] = (float)cone->least, out[2] = (float)cone->most;
+  }
+}
+
+void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const SporeCanvas *canvas,
                          const SporeRenderOptions *options, int width, int height) {
   SporeVec3 right, up, forward;
   *frame = (SporeFrame){0};
   spore_camera_eye(camera, &frame->eye, &right, &up, &forward);
   double distance = camera->distance, slope = tan(camera->field_of_view / 2);
-  depth_range(drawables, frame->eye, forward, &frame->near, &frame->far);
+  depth_range(canvas->drawables, frame->eye, forward, &frame->near, &frame->far);
   if (options->grid || !(frame->far > 0)) {
     frame->near = MIN(frame->near, distance * 0.05);
     frame->far = MAX(frame->far, distance * 12);
@@ -90,6 +113,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
   block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
   set_clip(frame, &options->clip, right, up, forward);
+  set_cones(frame, canvas, right, up, forward);
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;
 }
 

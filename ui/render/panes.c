@@ -1,8 +1,11 @@
 /* Draws simulations side by side into one picture, without a window. */
 #include "ui/render/panes.h"
 
+#include "ui/render/stage_ports.h"
+
 /* What draws one simulation: the renderer draws all that it holds, so that each has its own. */
 typedef struct Pane {
+  SporeDocument *document;
   SporeSimulation *simulation;
   SporeRenderer *renderer;
   SporeStage *stage;
@@ -55,6 +58,7 @@ gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimula
   if (!renderer) return FALSE;
   Pane *pane = g_new0(Pane, 1);
   g_ptr_array_add(panes->row, pane);
+  pane->document = document;
   pane->simulation = simulation;
   pane->renderer = renderer;
   pane->camera = g_strdup(camera);
@@ -64,6 +68,18 @@ gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimula
   panes->pixels = g_realloc(panes->pixels, (gsize)spore_panes_width(panes) * (gsize)panes->height * 4);
   SporeCamera found;
   return find_camera(panes, pane, &found, error);
+}
+
+gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **error) {
+  for (guint i = 0; i < panes->row->len; i++) {
+    const Pane *pane = panes->row->pdata[i];
+    g_autoptr(GArray) found = spore_stage_find_ports(pane->document, name, error);
+    if (!found) return FALSE;
+    g_autofree SporeStagePort *ports = g_new(SporeStagePort, found->len);
+    for (guint k = 0; k < found->len; k++) ports[k] = (SporeStagePort){g_array_index(found, SporePortReach, k), TRUE};
+    spore_stage_set_ports(pane->stage, ports, found->len);
+  }
+  return TRUE;
 }
 
 int spore_panes_width(const SporePanes *panes) { return panes->width * (int)panes->row->len; }

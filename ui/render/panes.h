@@ -11,6 +11,9 @@ typedef struct SporePanes SporePanes;
 SporePanes *spore_panes_new(int width, int height, GError **error);
 /* What is hidden in all of them; at first nothing is. */
 void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip);
+/* Shows what is reached through the ports of that name, see spore_stage_find_ports, in all simulations that are there.
+ * FALSE with a GError: there is no such port. */
+gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **error);
 void spore_panes_free(SporePanes *panes); /* NULL is allowed */
 /* Adds a simulation at the right of those that are there; document and simulation are borrowed. camera: of the scene,
  * by name; NULL: see spore_stage_camera. FALSE with a GError: no such camera. */

@@ -50,7 +50,8 @@ enum { SPORE_UNIT_OCCLUSION, SPORE_UNIT_SHADOW, SPORE_UNIT_COLOUR, SPORE_UNIT_DE
 
 /* What all shaders know; laid out as the uniform block `Frame` (std140). */
 typedef struct SporeFrameBlock {
-  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4];
+  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4], tint[4];
+  float pivot[SPORE_CONES_MOST][4], along[SPORE_CONES_MOST][4], limits[SPORE_CONES_MOST][4];
 } SporeFrameBlock;
 
 typedef struct SporeFrame {
@@ -170,6 +171,8 @@ void spore_target_clear(SporeTarget *target);
 typedef struct SporeCanvas {
   GPtrArray *drawables; /* SporeDrawable * by handle - 1, NULL where removed */
   GPtrArray *grid;      /* SporeLineGroup * */
+  SporeCone cones[SPORE_CONES_MOST];
+  guint cone_count; /* 0: nothing is tinted */
   SporePrograms programs;
   GLuint block, screen_array; /* uniform buffer; vertex array without attributes */
 } SporeCanvas;

@@ -99,9 +99,9 @@ gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const Sp
   int scale = MAX(screen->width, screen->height) * SUPERSAMPLES <= largest ? SUPERSAMPLES : 1;
   SporeFrame small, large;
   if (!prepare(picture, screen, scale, error)) return FALSE;
-  spore_frame_prepare(&small, camera, canvas->drawables, options, screen->width, screen->height);
+  spore_frame_prepare(&small, camera, canvas, options, screen->width, screen->height);
   spore_frame_add_shadow(&small, camera, canvas->drawables);
-  spore_frame_prepare(&large, camera, canvas->drawables, options, picture->colour.width, picture->colour.height);
+  spore_frame_prepare(&large, camera, canvas, options, picture->colour.width, picture->colour.height);
   spore_frame_add_shadow(&large, camera, canvas->drawables);
 
   spore_canvas_set_frame(canvas, &small);

@@ -1,6 +1,7 @@
 /* The renderer: drawables by handle, and drawing them into a picture that is read back. */
 #include <glib/gi18n.h>
 #include <math.h>
+#include <string.h>
 
 #include "ui/render/frame.h"
 #include "ui/render/passes.h"
@@ -148,6 +149,12 @@ void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const doubl
   if (drawable) spore_line_group_move(drawable, points, count);
 }
 
+void spore_renderer_tint_beyond(SporeRenderer *renderer, const SporeCone *cones, guint count) {
+  g_return_if_fail(count <= SPORE_CONES_MOST);
+  if (count) memcpy(renderer->canvas.cones, cones, count * sizeof *cones);
+  renderer->canvas.cone_count = count;
+}
+
 void spore_renderer_remove(SporeRenderer *renderer, guint handle) {
   SporeDrawable *drawable = find(renderer, handle);
   g_return_if_fail(drawable);
@@ -191,7 +198,7 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, co
       return FALSE;
     target = &renderer->sampled;
   }
-  spore_frame_prepare(&frame, camera, renderer->canvas.drawables, options, width, height);
+  spore_frame_prepare(&frame, camera, &renderer->canvas, options, width, height);
   spore_canvas_set_frame(&renderer->canvas, &frame);
   spore_target_bind(target);
   glClear(GL_DEPTH_BUFFER_BIT); /* the background covers what nothing else does */

@@ -57,6 +57,17 @@ guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gs
 /* Sets the opacity of the hidden parts of lines, 0..1; at first a fifth. */
 void spore_renderer_see_lines_through(SporeRenderer *renderer, guint group, double share);
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
+/* Places that are reached: within an angle of a direction, and between two distances. */
+typedef struct SporeCone {
+  SporeVec3 pivot, along; /* world, m; of length 1 */
+  double angle;           /* rad */
+  double least, most;     /* m */
+} SporeCone;
+#define SPORE_CONES_MOST 32
+/* Tints the tissue of surfaces that lies in none of the cones; count, at most SPORE_CONES_MOST, 0: nothing is tinted.
+ * spore_tint_colour: of the tint, 0..1 of a screen, for legends. */
+void spore_renderer_tint_beyond(SporeRenderer *renderer, const SporeCone *cones, guint count);
+extern const double spore_tint_colour[3];
 void spore_renderer_remove(SporeRenderer *renderer, guint handle);
 void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible);
 void spore_renderer_clear(SporeRenderer *renderer);

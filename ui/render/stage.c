@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "ui/render/stage_body.h"
+#include "ui/render/stage_ports.h"
 
 SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   SporeStage *stage = g_new0(SporeStage, 1);
@@ -10,6 +11,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->options.surfaces = TRUE;
   stage->bodies = g_ptr_array_new();
   stage->fit = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
   stage->selection = g_hash_table_new(NULL, NULL);
   return stage;
@@ -26,11 +28,13 @@ void spore_stage_free(SporeStage *stage) {
   if (!stage) return;
   spore_stage_set_candidate(stage, NULL);
   spore_stage_set_marks(stage, NULL);
+  spore_stage_set_ports(stage, NULL, 0);
   clear(stage);
   g_ptr_array_free(stage->bodies, TRUE);
   g_hash_table_destroy(stage->fit);
   g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
+  g_array_free(stage->port_lines, TRUE);
   g_free(stage);
 }
 

@@ -65,6 +65,7 @@ struct SporeStage {
   SporeDocument *document;
   const SporeSimulation *simulation; /* that the bodies were built for; NULL: none */
   SporeStageOptions options;
+  GArray *port_lines;    /* handles, guint; see stage_ports.c */
   GHashTable *selection; /* ids of bodies, as pointers */
   GHashTable *hidden;    /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
   SporeClip clip;        /* what is not picked */

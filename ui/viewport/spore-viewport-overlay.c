@@ -58,37 +58,61 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
 }
 
-/* A bar of the scale's colours with its ends, at the lower right, above messages and beside the second view. */
-static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
+/* A dark box for a legend, at the lower right, above messages and beside the second view. FALSE: there is no room. */
+static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, double *left, double *top) {
   if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
   height -= gtk_widget_get_allocated_height(self->messages);
-  const double bar = LEGEND_WIDTH, left = width - bar - LEGEND_MARGIN, top = height - LEGEND_HEIGHT;
-  if (width < bar + 2 * LEGEND_MARGIN) return;
+  *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT;
+  if (width < LEGEND_WIDTH + 2 * LEGEND_MARGIN) return FALSE;
   cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
-  cairo_rectangle(cr, left - 10, top - 26, bar + 20, LEGEND_HEIGHT + 14);
+  cairo_rectangle(cr, *left - 10, *top - 26, LEGEND_WIDTH + 20, LEGEND_HEIGHT + 14);
   cairo_fill(cr);
-  for (int i = 0; i < bar; i++) {
+  return TRUE;
+}
+
+/* align: share of the legend's width that is left free before the text. */
+static void write_legend(SporeViewport *self, cairo_t *cr, const char *text, double x, double y, double align) {
+  int wide;
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, text);
+  pango_layout_get_pixel_size(layout, &wide, NULL);
+  if (wide > LEGEND_WIDTH) {
+    pango_layout_set_width(layout, LEGEND_WIDTH * PANGO_SCALE);
+    pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_MIDDLE);
+    wide = LEGEND_WIDTH;
+  }
+  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+  cairo_move_to(cr, x + align * (LEGEND_WIDTH - wide), y);
+  pango_cairo_show_layout(cr, layout);
+}
+
+/* A bar of the scale's colours with its ends. */
+static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
+  double left, top;
+  if (!place_legend(self, cr, width, height, &left, &top)) return;
+  for (int i = 0; i < LEGEND_WIDTH; i++) {
     double colour[3];
-    spore_colour_scale(i / bar, colour);
+    spore_colour_scale((double)i / LEGEND_WIDTH, colour);
     cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
     cairo_rectangle(cr, left + i, top, 1, 10);
     cairo_fill(cr);
   }
-  const struct {
-    const char *text;
-    double y, align;
-  } lines[] = {{label, top - 21, 0}, {"0", top + 13, 0}, {high, top + 13, 1}};
-  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
-  for (gsize i = 0; i < G_N_ELEMENTS(lines); i++) {
-    int wide;
-    g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, lines[i].text);
-    pango_layout_get_pixel_size(layout, &wide, NULL);
-    cairo_move_to(cr, left + lines[i].align * (bar - wide), lines[i].y);
-    pango_cairo_show_layout(cr, layout);
-  }
+  write_legend(self, cr, label, left, top - 21, 0);
+  write_legend(self, cr, "0", left, top + 13, 0);
+  write_legend(self, cr, high, left, top + 13, 1);
 }
 
-/* Draws the legend of the candidate's colours, else of the colours of the bodies' spheres. */
+/* The tint, and what it says. */
+static void draw_tint(SporeViewport *self, cairo_t *cr, int width, int height, const char *text) {
+  double left, top;
+  if (!place_legend(self, cr, width, height, &left, &top)) return;
+  cairo_set_source_rgb(cr, spore_tint_colour[0], spore_tint_colour[1], spore_tint_colour[2]);
+  cairo_rectangle(cr, left, top, LEGEND_WIDTH, 10);
+  cairo_fill(cr);
+  write_legend(self, cr, text, left, top - 21, 0);
+  write_legend(self, cr, _("at the start"), left, top + 13, 0);
+}
+
+/* Draws the legend of the candidate's colours, else of the colours of the bodies' spheres, else of the tint. */
 static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
   SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
   if (self->legend) {
@@ -97,6 +121,9 @@ static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height
     g_autofree char *high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
                                            : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
     draw_legend(self, cr, width, height, _("Depth error"), high);
+  } else {
+    g_autofree char *tint = spore_viewport_reach_legend(self);
+    if (tint) draw_tint(self, cr, width, height, tint);
   }
 }
 

@@ -1,20 +1,18 @@
-/* Ports over the picture: the cone that the selected instrument reaches through its port, and the port moved by hand.
- */
+/* Ports over the picture: what the selected instrument, or all, reach through them, and a port moved by hand. */
 #include "ui/viewport/spore-viewport-private.h"
+
+#include <glib/gi18n.h>
 
 #include "core/author/edits.h"
 #include "core/author/port_edits.h"
 #include "ui/panels/report.h"
+#include "ui/render/stage_ports.h"
 
-#define SIDES 12       /* lines of the cone */
-#define RINGS 3        /* across them, at equal depths */
-#define PIECES 6       /* of a line: what is behind the eye is not drawn */
 #define SURFACE_M 0.02 /* a port that is led nearer to a surface lies on it */
 
 typedef struct Port {
   guint32 id;
-  SporePortReach reach; /* its objects are not to be used: the document may have changed */
-  double colour[3];
+  SporeStagePort shown; /* its objects are not to be used: the document may have changed */
   char name[64];
 } Port;
 
@@ -22,24 +20,57 @@ GArray *spore_viewport_ports_new(void) { return g_array_new(FALSE, FALSE, sizeof
 
 static SporeDocument *document_of(SporeViewport *self) { return spore_editor_document_get(self->document); }
 
-static void find_colour(const SporeObject *body, double colour[3]) {
-  const SporeObject *visual = spore_object_child_of(body, "visual");
-  int index = visual ? spore_parameter_find(spore_object_type(visual)->table, "colour") : -1;
-  for (int k = 0; k < 3; k++) colour[k] = index < 0 ? 0.8 : spore_object_value(visual, (guint)index)->number[k];
-}
-
-void spore_viewport_ports_refresh(SporeViewport *self) {
-  const SporeObject *selected = spore_editor_document_selected(self->document);
-  g_array_set_size(self->ports, 0);
-  if (!selected) return;
-  g_autoptr(GArray) found = spore_ports_of(document_of(self), selected);
+/* Takes along those of the other array that are not there yet. */
+static void add_ports(SporeViewport *self, const GArray *found, gboolean tint) {
   for (guint i = 0; i < found->len; i++) {
-    Port port = {.reach = g_array_index(found, SporePortReach, i)};
-    port.id = spore_object_id(port.reach.port);
-    find_colour(port.reach.body, port.colour);
-    g_strlcpy(port.name, spore_object_name(port.reach.port), sizeof port.name);
+    Port port = {.shown = {g_array_index(found, SporePortReach, i), tint}};
+    port.id = spore_object_id(port.shown.reach.port);
+    for (guint k = 0; k < self->ports->len && port.id; k++)
+      if (g_array_index(self->ports, Port, k).id == port.id) port.id = 0;
+    if (!port.id) continue;
+    g_strlcpy(port.name, spore_object_name(port.shown.reach.port), sizeof port.name);
     g_array_append_val(self->ports, port);
   }
+}
+
+/* The cones and the tint are drawn by the stage. */
+static void show_ports(SporeViewport *self) {
+  if (!self->stage) return;
+  g_autofree SporeStagePort *shown = g_new(SporeStagePort, self->ports->len);
+  for (guint i = 0; i < self->ports->len; i++) shown[i] = g_array_index(self->ports, Port, i).shown;
+  spore_stage_set_ports(self->stage, shown, self->ports->len);
+}
+
+/* Of what is selected, which is for an author; with the overlay all, where what is selected alone tints. */
+void spore_viewport_ports_refresh(SporeViewport *self) {
+  const SporeObject *selected = self->document ? spore_editor_document_selected(self->document) : NULL;
+  g_array_set_size(self->ports, 0);
+  if (selected && (self->reach || !self->presented)) {
+    g_autoptr(GArray) own = spore_ports_of(document_of(self), selected);
+    add_ports(self, own, self->reach);
+  }
+  if (self->document && self->reach) {
+    g_autoptr(GArray) all = spore_ports_of(document_of(self), NULL);
+    add_ports(self, all, self->ports->len == 0);
+  }
+  show_ports(self);
+}
+
+void spore_viewport_set_reach(SporeViewport *self, gboolean shown) {
+  self->reach = shown;
+  spore_viewport_ports_refresh(self);
+  spore_viewport_redraw(self);
+}
+
+char *spore_viewport_reach_legend(SporeViewport *self) {
+  guint tinting = 0;
+  const char *name = NULL;
+  for (guint i = 0; i < self->ports->len; i++) {
+    const Port *port = &g_array_index(self->ports, Port, i);
+    if (port->shown.tints) tinting++, name = port->name;
+  }
+  if (tinting == 0) return NULL;
+  return tinting > 1 ? g_strdup(_("Out of reach of every port")) : g_strdup_printf(_("Out of reach of \"%s\""), name);
 }
 
 static gboolean is_shown(SporeViewport *self) { return self->document && !self->presented; }
@@ -48,45 +79,13 @@ gboolean spore_viewport_has_ports(SporeViewport *self) { return is_shown(self) &
 
 /* Drawing. */
 
-/* A point of the cone's mantle. */
-static SporeVec3 on_cone(const SporePortReach *reach, double depth, double turn) {
-  SporeVec3 u = spore_vec3_any_across(reach->along), v = spore_vec3_cross(reach->along, u);
-  SporeVec3 aside = spore_vec3_add(spore_vec3_scale(cos(turn), u), spore_vec3_scale(sin(turn), v));
-  SporeVec3 way = spore_vec3_add_scaled(spore_vec3_scale(sin(reach->angle), aside), cos(reach->angle), reach->along);
-  return spore_vec3_add_scaled(reach->pivot, depth, way);
-}
-
-static void draw_piece(SporeViewport *self, cairo_t *cr, SporeVec3 from, SporeVec3 to) {
-  double x, y, x1, y1;
-  if (!spore_viewport_project(self, from, &x, &y) || !spore_viewport_project(self, to, &x1, &y1)) return;
-  cairo_move_to(cr, x, y);
-  cairo_line_to(cr, x1, y1);
-}
-
-static void draw_cone(SporeViewport *self, cairo_t *cr, const SporePortReach *reach) {
-  double long_way = reach->deepest - reach->shallowest;
-  for (guint side = 0; side < SIDES; side++)
-    for (guint piece = 0; piece < PIECES; piece++)
-      draw_piece(self, cr, on_cone(reach, reach->shallowest + long_way * piece / PIECES, side * 2 * G_PI / SIDES),
-                 on_cone(reach, reach->shallowest + long_way * (piece + 1) / PIECES, side * 2 * G_PI / SIDES));
-  for (guint ring = 0; ring <= RINGS; ring++)
-    for (guint arc = 0; arc < 4 * SIDES; arc++)
-      draw_piece(self, cr, on_cone(reach, reach->shallowest + long_way * ring / RINGS, arc * G_PI / (2 * SIDES)),
-                 on_cone(reach, reach->shallowest + long_way * ring / RINGS, (arc + 1) * G_PI / (2 * SIDES)));
-}
-
 void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr) {
   for (guint i = 0; is_shown(self) && i < self->ports->len; i++) {
     const Port *port = &g_array_index(self->ports, Port, i);
     double x, y;
-    cairo_new_path(cr);
-    draw_cone(self, cr, &port->reach);
-    draw_piece(self, cr, port->reach.pivot, port->reach.tip);
-    cairo_set_source_rgba(cr, port->colour[0], port->colour[1], port->colour[2], 0.55);
-    cairo_set_line_width(cr, 1);
-    cairo_stroke(cr);
-    spore_viewport_draw_handle(self, cr, port->reach.pivot, self->drag == DRAG_PORT);
-    if (spore_viewport_project(self, port->reach.pivot, &x, &y))
+    spore_viewport_draw_handle(self, cr, port->shown.reach.pivot,
+                               self->drag == DRAG_PORT && port->id == self->port_held);
+    if (spore_viewport_project(self, port->shown.reach.pivot, &x, &y))
       spore_viewport_draw_text(self, cr, port->name, x + 9, y - 22);
   }
 }
@@ -96,9 +95,9 @@ void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr) {
 gboolean spore_viewport_ports_press(SporeViewport *self, double x, double y) {
   for (guint i = 0; is_shown(self) && i < self->ports->len; i++) {
     const Port *port = &g_array_index(self->ports, Port, i);
-    if (!spore_viewport_handle_is_at(self, port->reach.pivot, x, y)) continue;
+    if (!spore_viewport_handle_is_at(self, port->shown.reach.pivot, x, y)) continue;
     self->port_held = port->id;
-    self->offset = spore_vec3_sub(port->reach.pivot, spore_viewport_under_cursor(self, port->reach.pivot));
+    self->offset = spore_vec3_sub(port->shown.reach.pivot, spore_viewport_under_cursor(self, port->shown.reach.pivot));
     self->drag = DRAG_PORT;
     return TRUE;
   }
@@ -116,11 +115,13 @@ void spore_viewport_ports_motion(SporeViewport *self, guint32 body, SporeVec3 su
   const SporeObject *met = body ? spore_document_by_id(document_of(self), body) : NULL;
   SporePortReach moved;
   if (!port) return;
-  SporeVec3 place = spore_vec3_add(spore_viewport_under_cursor(self, port->reach.pivot), self->offset);
+  SporeVec3 place = spore_vec3_add(spore_viewport_under_cursor(self, port->shown.reach.pivot), self->offset);
   if (met && (SporeRole)spore_object_number(met, "role") != SPORE_ACTIVE &&
       spore_vec3_distance(surface, place) < SURFACE_M)
     place = surface;
-  if (spore_port_moved(&port->reach, place, &moved, NULL)) port->reach = moved;
+  if (!spore_port_moved(&port->shown.reach, place, &moved, NULL)) return;
+  port->shown.reach = moved;
+  show_ports(self);
 }
 
 void spore_viewport_ports_release(SporeViewport *self, gboolean keep) {
@@ -130,8 +131,8 @@ void spore_viewport_ports_release(SporeViewport *self, gboolean keep) {
   self->port_held = 0;
   SporePortReach before;
   if (keep && port && object && spore_port_reach(document_of(self), object, &before) &&
-      spore_vec3_distance(before.pivot, port->reach.pivot) > 0 &&
-      !spore_edit_move_port(document_of(self), object, port->reach.pivot, &error))
+      spore_vec3_distance(before.pivot, port->shown.reach.pivot) > 0 &&
+      !spore_edit_move_port(document_of(self), object, port->shown.reach.pivot, &error))
     spore_report(GTK_WIDGET(self), error);
   spore_viewport_ports_refresh(self);
 }

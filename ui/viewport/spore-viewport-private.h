@@ -41,7 +41,8 @@ struct _SporeViewport {
   guint anchor_count;
   SporeVec3 outline[SPORE_OUTLINE_POINTS]; /* of an instrument that is being placed */
   guint outline_count;
-  GArray *ports;                                           /* of the selected instrument, see spore-viewport-ports.c */
+  GArray *ports;                                           /* that are shown, see spore-viewport-ports.c */
+  gboolean reach;                                          /* all ports are shown, and what none reaches */
   guint32 port_held;                                       /* id of the port that the drag moves */
   GArray *link_marks;                                      /* of the scene's links, see spore-viewport-links.c */
   GMenuModel *link_kinds, *instrument_kinds, *fluid_kinds; /* for menus */
@@ -158,11 +159,13 @@ void spore_viewport_links_draw(SporeViewport *self, cairo_t *cr);
 /* Id of the link that is drawn there; 0: none. */
 guint32 spore_viewport_link_at(SporeViewport *self, double x, double y);
 
-/* spore-viewport-ports.c: what the selected instrument reaches through its port. */
+/* spore-viewport-ports.c: what instruments reach through their ports. */
 GArray *spore_viewport_ports_new(void);
-/* Reads the ports of what is selected. */
+/* Reads the ports that are to be shown. */
 void spore_viewport_ports_refresh(SporeViewport *self);
-void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr);
+void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr); /* handles and names */
+/* What the tint says, translated, g_free; NULL: nothing is tinted. */
+char *spore_viewport_reach_legend(SporeViewport *self);
 gboolean spore_viewport_ports_press(SporeViewport *self, double x, double y); /* FALSE: no port was there */
 /* body: what the cursor meets, at that place of the scene; 0: nothing. */
 void spore_viewport_ports_motion(SporeViewport *self, guint32 body, SporeVec3 surface);

@@ -265,6 +265,7 @@ void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
   gtk_widget_set_visible(self->notice, presented);
   gtk_label_set_max_width_chars(GTK_LABEL(self->hud), presented ? HUD_BESIDE_CONTROLS : HUD_CHARS);
   gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
+  spore_viewport_ports_refresh(self);
   spore_viewport_redraw(self);
 }
 

@@ -90,6 +90,9 @@ void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, 
 /* Lays messages over the foot of the view, below the figures: the picture and its tools stay where they are. */
 void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
+/* Shows all ports that instruments pass through with what they reach, and tints what none of them reaches; with a port
+ * or an instrument selected, what that does not reach. */
+void spore_viewport_set_reach(SporeViewport *self, gboolean shown);
 /* Whether the corner shows what a step costs, contacts, solver and energy, too. */
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures);
 /* Shows a candidate over the scene, with the legend of its colours (read during the call; without values: no legend).

@@ -30,6 +30,9 @@ typedef struct SporeLinkDescription {
   double strength;           /* N: sum of the forces at its points above which the link breaks; 0: never */
   double friction;           /* Coulomb coefficient along the line */
   int ends;                  /* SporeEnds, of a body's own line */
+  /* Of a port, for authors: how far its instrument gets, see core/scene/port_reach.h. A run does not depend on it. */
+  double reach_angle;             /* rad */
+  double reach_least, reach_most; /* m */
   const char *body_a_name, *body_b_name;
 } SporeLinkDescription;
 
