@@ -2034,6 +2034,45 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
 
 
 @check
+def the_place_outside_is_kept():
+    """who turns the view while it looks through the camera, and changes to the camera and back, is where the view was outside."""
+    with start(SCENES / "minimal.spore") as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.act("view", "s", "right")
+        editor.focus()
+
+        def picture():
+            return picture_of_view(editor, 100)[0]
+
+        def changed(last, what):
+            """A picture that is no more the last one, and stays so."""
+            ui.wait(lambda: picture() != last, what)
+            return settled()
+
+        def settled():
+            seen = [picture()]
+            ui.wait(lambda: seen.append(picture()) or seen[-1] == seen[-2], "the view to stand still")
+            return seen[-1]
+
+        outside = settled()
+        editor.keys("x")
+        through = changed(outside, "the view through the camera")
+        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 2, "mousemove_relative", "--", 60, 0, "mousemove_relative", "--", 40, 30, "mouseup", 2)
+        changed(through, "the view to turn")
+        editor.keys("x")
+        ui.wait(lambda: picture() == through, "the view through the camera again")
+        editor.keys("x")
+        ui.wait(lambda: picture() == outside, "the place outside, not the one beside the camera")
+        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 2, "mousemove_relative", "--", 60, 0, "mousemove_relative", "--", 40, 30, "mouseup", 2)
+        moved = changed(outside, "the view outside to turn")
+        editor.keys("x")
+        ui.wait(lambda: picture() == through, "the view through the camera once more")
+        editor.keys("x")
+        ui.wait(lambda: picture() == moved, "the place outside as it was moved there")
+
+
+@check
 def a_drag_beside_turns_the_view():
     """left drag beside the organs turns the view and keeps the selection, a click there selects nothing; organs are hidden and shown, from the menu of the right button too."""
     folder_ = folder("scenes") / "aside"

@@ -88,6 +88,7 @@ struct _SporeViewport {
   guint32 through;     /* id of the camera of the scene that the view looks through and follows; 0: none */
   SporeCamera outside; /* where the view was before it looked through the scene's camera */
   gboolean has_outside;
+  gboolean strayed; /* the view was moved while it looked through the scene's camera: it is not the one outside */
   gboolean framed, waiting;
 
   SporeDrag drag;

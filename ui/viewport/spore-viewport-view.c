@@ -78,9 +78,11 @@ static void look_through_camera(SporeViewport *self) {
   if (!self->stage || !spore_viewport_has_anything(self)) return;
   const SporeObject *camera = spore_viewport_scene_camera(self);
   const char *name = camera ? spore_object_name(camera) : NULL;
-  if (camera && self->framed && !self->through) self->outside = self->camera, self->has_outside = TRUE;
+  gboolean keeps = self->strayed && self->has_outside;
+  if (camera && self->framed && !self->through && !keeps) self->outside = self->camera, self->has_outside = TRUE;
   spore_stage_camera(self->stage, name, aspect_of(self), &self->camera, NULL);
   self->framed = TRUE;
+  self->strayed = FALSE;
   self->through = camera ? spore_object_id(camera) : 0;
 }
 
@@ -110,6 +112,7 @@ void spore_viewport_swap_views(SporeViewport *self) {
   } else if (spore_viewport_other_camera(self, aspect_of(self), &outside)) {
     spore_viewport_leave_scene_camera(self);
     self->camera = outside;
+    self->strayed = FALSE;
   }
   spore_viewport_redraw(self);
 }
@@ -120,6 +123,7 @@ void spore_viewport_look_afresh(SporeViewport *self) {
 }
 
 void spore_viewport_leave_scene_camera(SporeViewport *self) {
+  if (self->through) self->strayed = TRUE;
   self->through = 0;
   self->camera.roll = 0;
 }
@@ -131,6 +135,7 @@ void spore_viewport_frame(SporeViewport *self) {
   if (!(lower[0] <= upper[0])) return;
   spore_viewport_leave_scene_camera(self);
   spore_camera_frame(&self->camera, lower, upper, aspect_of(self));
+  self->strayed = FALSE;
   self->framed = TRUE;
   spore_viewport_redraw(self);
 }
@@ -143,6 +148,7 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
   }
   gboolean right = g_str_equal(view, "right"), top = g_str_equal(view, "top");
   spore_viewport_leave_scene_camera(self);
+  self->strayed = FALSE;
   self->camera.azimuth = right ? G_PI_2 : 0;
   self->camera.elevation = top ? G_PI_2 * 0.99 : 0;
   spore_viewport_redraw(self);

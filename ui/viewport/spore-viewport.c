@@ -222,7 +222,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
   self->framed = FALSE;
-  self->has_outside = FALSE;
+  self->has_outside = self->strayed = FALSE;
   self->through = 0; /* another document numbers its objects anew */
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);

@@ -126,7 +126,8 @@ void spore_viewport_frame_soon(SporeViewport *self);
 void spore_viewport_view(SporeViewport *self, const char *view);
 /* Draws the other view, too, small in a corner: what spore_viewport_swap_views would show large. */
 void spore_viewport_set_second_view(SporeViewport *self, gboolean on);
-/* From the outside to the scene's camera, which is followed, and back to where the view was. */
+/* From the outside to the scene's camera, which is followed, and back to where the view was outside, even if the view
+ * was moved meanwhile. */
 void spore_viewport_swap_views(SporeViewport *self);
 /* The camera of the scene that is selected, else the one that the view looks through, else the first; NULL: there is
  * none. */
