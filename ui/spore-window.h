@@ -17,11 +17,12 @@
  *               add-region [s path of what holds it], place-region [s path] (in the view), remove-region [s path],
  *               add-link [s element], tie-link (the selected one), pick-back, pick-done,
  *               patient [s position; state, "": none], gizmo [s "none", "move", "turn" or "scale"; state] (of what is
- * selected), align [s "x-least", "y-middle", "z-greatest" or the like] (the others with the first), mirror [s
- * "x-scene", "y-own" or the like] (a copy of the selected body, in the middle of either) generators  generate-K [u
- * count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve, surface; preview-labels [s
- * path], preview-labels-dialog, make-labels; pick-places (state), automatic-places; apply-generated, cancel-job mesh
- * change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
+ *               selected), align [s "x-least", "y-middle", "z-greatest" or the like] (the others with the first),
+ *               mirror [s "x-scene", "y-own" or the like] (a copy of the selected body, in the middle of either)
+ *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
+ *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
+ *               automatic-places; apply-generated, cancel-job
+ *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
  *               measure-mapping: of the selected body
  *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in
  *               .html, .csv or .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path],

@@ -300,7 +300,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       {"instrument", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.instrument,
        N_("Add an instrument that the mouse moves: KIND, KIND:NAME, KIND@X,Y,Z (where it enters, m) or "
           "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
-          "endoscope, endoscope_30 (may be repeated)"),
+          "bag, endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
       {"mirror", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.mirror,
        N_("Add a mirrored copy of an organ, across that axis in the middle of the scene, with what ties it to the "

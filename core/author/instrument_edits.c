@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/author/edits.h"
+#include "core/author/instrument_bag.h"
 #include "core/io/mesh_import.h"
 #include "core/math/quat.h"
 #include "core/scene/camera_sight.h"
@@ -309,6 +310,8 @@ static SporeObject *add(Addition *addition, const SporeInstrumentPlaces *places,
   addition->pose = spore_body_pose(body); /* as it was rounded */
   gboolean done =
       add_tool(addition, body, error) && (instrument->head != SPORE_HEAD_LENS || add_camera(addition, body, error)) &&
+      (instrument->head != SPORE_HEAD_HOOP ||
+       spore_instrument_add_film(addition->document, instrument, body, addition->pose, error)) &&
       (instrument->head == SPORE_HEAD_ARC || !places->entry || add_port(addition, body, *places->entry, error));
   return done ? body : NULL;
 }

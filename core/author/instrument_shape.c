@@ -5,12 +5,17 @@
 #include "core/author/instruments.h"
 #include "core/io/mesh_import.h"
 
-#define SIDES 20          /* of a ring */
-#define ROUND_RINGS 6     /* of a rounded end */
-#define END_PART 0.05     /* radius of the flat middle of a rounded end, as a part of the radius */
-#define TAPER 0.55        /* radius of a jaw's tip, as a part of that at the hinge */
-#define BLADE_WIDTH 0.6   /* of a blade, as a part of its thickness */
-#define PRONG_GAP 1.2     /* between shaft's axis and prong, as a part of the prong's radius */
+#define SIDES 20        /* of a ring */
+#define ROUND_RINGS 6   /* of a rounded end */
+#define END_PART 0.05   /* radius of the flat middle of a rounded end, as a part of the radius */
+#define TAPER 0.55      /* radius of a jaw's tip, as a part of that at the hinge */
+#define BLADE_WIDTH 0.6 /* of a blade, as a part of its thickness */
+#define PRONG_GAP 1.2   /* between shaft's axis and prong, as a part of the prong's radius */
+#define HOOP_RINGS 48
+#define WIRE 0.0008      /* m: radius of a hoop's wire */
+#define WIRE_GAP 0.0019  /* m: between the mouth of a bag and the middle of the wire */
+#define WIRE_DEPTH 0.004 /* m: how far the ends of the wire go into the shaft */
+#define WIRE_SPHERES 24
 #define ARC_RINGS 40      /* of a needle */
 #define POINT_PART 0.25   /* of a needle: how much of it tapers to the point */
 #define FELT_LENGTH 0.08  /* m: spheres along the shaft from its end on */
@@ -120,6 +125,24 @@ static void add_arc(Shape *shape, double arc, double wire) {
   sweep(shape, rings, G_N_ELEMENTS(rings));
 }
 
+static SporeVec3 on_hoop(const SporeInstrumentKind *instrument, double angle) {
+  double reach = instrument->head_radius + WIRE_GAP, middle = instrument->head_radius - instrument->head_length;
+  return (SporeVec3){reach * sin(angle), middle + reach * cos(angle), 0};
+}
+
+/* Wire out of the shaft, around the mouth in the plane of x and y, and back. */
+static void add_hoop(Shape *shape, const SporeInstrumentKind *instrument) {
+  Ring rings[HOOP_RINGS + 3];
+  const SporeVec3 along = {0, 0, WIRE};
+  for (int i = 0; i <= HOOP_RINGS; i++) {
+    double gap = 2 * WIRE / instrument->head_radius, angle = gap + (2 * G_PI - 2 * gap) * i / HOOP_RINGS;
+    rings[1 + i] = (Ring){on_hoop(instrument, angle), {WIRE * sin(angle), WIRE * cos(angle), 0}, along};
+  }
+  rings[0] = (Ring){{2 * WIRE, WIRE_DEPTH, 0}, {WIRE, 0, 0}, along};
+  rings[HOOP_RINGS + 2] = (Ring){{-2 * WIRE, WIRE_DEPTH, 0}, {-WIRE, 0, 0}, along};
+  sweep(shape, rings, G_N_ELEMENTS(rings));
+}
+
 /* On which side of the axis a jaw lies: the first one opens by turning from -y toward -z. */
 static double side_of(SporeInstrumentPart part) { return part == SPORE_PART_JAW_A ? -1 : 1; }
 
@@ -148,6 +171,10 @@ static void add_shaft(Shape *shape, const SporeInstrumentKind *instrument, doubl
                  head);
     add_rod(shape, radius, -0.5 * radius, length);
     break;
+  case SPORE_HEAD_HOOP:
+    add_hoop(shape, instrument);
+    add_rod(shape, radius, 0, length);
+    break;
   case SPORE_HEAD_JAWS:
   case SPORE_HEAD_BLADES:
     add_rod(shape, radius, -0.5 * radius, length); /* round the hinge */
@@ -172,15 +199,15 @@ char *spore_instrument_mesh(const SporeInstrumentKind *instrument, SporeInstrume
 
 /* Spheres. */
 
-static void add_sphere(GArray *spheres, double y, double z, double radius) {
-  const double row[] = {0, y, z, radius};
+static void add_sphere(GArray *spheres, SporeVec3 at, double radius) {
+  const double row[] = {at.x, at.y, at.z, radius};
   g_array_append_vals(spheres, row, 4);
 }
 
 static void add_jaw_spheres(GArray *spheres, const SporeInstrumentKind *instrument, double side) {
   double radius = instrument->head_radius;
   for (double y = radius; y <= instrument->head_length - radius / 2; y += radius)
-    add_sphere(spheres, -y, side * radius, radius);
+    add_sphere(spheres, (SporeVec3){0, -y, side * radius}, radius);
 }
 
 /* A mouth lies before the spheres, so that these do not keep off what it sucks. */
@@ -190,9 +217,11 @@ static double first_of_shaft(const SporeInstrumentKind *instrument) {
 
 static void add_shaft_spheres(GArray *spheres, const SporeInstrumentKind *instrument, double length) {
   double radius = instrument->radius, first = first_of_shaft(instrument);
-  if (instrument->head == SPORE_HEAD_BALL) add_sphere(spheres, 0, 0, instrument->head_radius);
+  if (instrument->head == SPORE_HEAD_BALL) add_sphere(spheres, (SporeVec3){0, 0, 0}, instrument->head_radius);
   for (double y = first; y <= fmin(length, FELT_LENGTH) - radius; y += SHAFT_SPACING * radius)
-    add_sphere(spheres, y, 0, radius);
+    add_sphere(spheres, (SporeVec3){0, y, 0}, radius);
+  for (int i = 0; instrument->head == SPORE_HEAD_HOOP && i < WIRE_SPHERES; i++)
+    add_sphere(spheres, on_hoop(instrument, 2 * G_PI * (i + 0.5) / WIRE_SPHERES), WIRE);
 }
 
 char *spore_instrument_spheres(const SporeInstrumentKind *instrument, SporeInstrumentPart part, double length,

@@ -23,6 +23,8 @@ const SporeInstrumentKind spore_instruments[] = {
      .settings = sucking},
     {"needle", N_("Needle with thread"), N_("stitches"), "needle", SPORE_HEAD_ARC, .radius = 0.0004,
      .head_radius = 0.007, .clearance = 0.01},
+    {"bag", N_("Specimen bag"), N_("takes away what was cut off"), "probe", SPORE_HEAD_HOOP, .radius = 0.0035,
+     .head_length = 0.059, .head_radius = 0.028, .clearance = 0.06},
     {"endoscope", N_("Endoscope"), N_("looks straight ahead"), "probe", SPORE_HEAD_LENS, .radius = 0.005,
      .clearance = 0.08},
     {"endoscope_30", N_("Endoscope, 30 degrees"), N_("looks down from its shaft"), "probe", SPORE_HEAD_LENS,

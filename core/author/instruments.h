@@ -16,6 +16,7 @@ typedef enum SporeInstrumentHead {
   SPORE_HEAD_BLADES, /* two bodies that are seen; what they cut they do not push away */
   SPORE_HEAD_PRONGS, /* fixed to the shaft */
   SPORE_HEAD_ARC,    /* a needle: half a circle, and no shaft */
+  SPORE_HEAD_HOOP,   /* a ring of wire that holds a bag, whose mouth is toward +z */
   SPORE_HEAD_LENS    /* a camera looks out of the end of the shaft */
 } SporeInstrumentHead;
 
@@ -32,11 +33,11 @@ typedef struct SporeInstrumentKind {
   const char *purpose; /* what it does, a few words that go after the label, translatable (N_) */
   const char *tool;    /* element of the scene's file */
   SporeInstrumentHead head;
-  double radius;               /* of the shaft, or of a needle's wire */
-  double head_length;          /* of jaws, blades and prongs, beyond the shaft; 0 for the others */
-  double head_radius;          /* of the ball, of jaws, blades and prongs at the shaft, of the arc */
-  double clearance;            /* from what it works with to what it points at, where there is room */
-  double look_rad;             /* between a camera's view and its shaft */
+  double radius;      /* of the shaft, or of a needle's wire */
+  double head_length; /* of jaws, blades, prongs and a hoop, beyond the shaft; 0 for the others */
+  double head_radius; /* of the ball, of jaws, blades and prongs at the shaft, of the arc, of the mouth of a bag */
+  double clearance;   /* from what it works with to what it points at, where there is room */
+  double look_rad;    /* between a camera's view and its shaft */
   const char *const *settings; /* of the tool: name, text, ..., NULL; where they differ from their defaults */
 } SporeInstrumentKind;
 

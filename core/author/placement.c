@@ -113,6 +113,42 @@ static void add_tools(SporePlacement *placement) {
   }
 }
 
+/* Whether the link ties the body to instruments that move, and to nothing else. */
+static gboolean ties_to_instruments(const SporePlacement *placement, const SporeObject *link, const SporeObject *body) {
+  gboolean ties = FALSE;
+  for (guint i = 0; i < parameter_count(link); i++) {
+    SporeObject *other = body_at(link, i);
+    if (!other || other == body) continue;
+    ties = g_hash_table_contains(placement->moving, other) &&
+           (SporeRole)spore_object_number(other, "role") == SPORE_ACTIVE;
+    if (!ties) return FALSE;
+  }
+  return ties;
+}
+
+/* Whether the body has links, which all tie it to instruments that move. */
+static gboolean hangs(const SporePlacement *placement, const SporeObject *body) {
+  const SporeObject *links = spore_document_section(placement->document, "links");
+  gboolean any = FALSE;
+  for (guint i = 0; i < spore_object_child_count(links); i++) {
+    const SporeObject *link = spore_object_child(links, i);
+    if (!spore_object_refers_to(link, body)) continue;
+    if (!ties_to_instruments(placement, link, body)) return FALSE;
+    any = TRUE;
+  }
+  return any;
+}
+
+/* What hangs on an instrument alone goes with it: the film of a bag. */
+static void add_hanging(SporePlacement *placement) {
+  const SporeObject *bodies = spore_document_section(placement->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (!g_hash_table_contains(placement->moving, body) && hangs(placement, body))
+      g_hash_table_add(placement->moving, body);
+  }
+}
+
 /* Whether all bodies that the object names move, of which there is one at least. */
 static gboolean all_move(const SporePlacement *placement, const SporeObject *object) {
   gboolean any = FALSE;
@@ -180,6 +216,7 @@ SporePlacement *spore_placement_new(SporeDocument *document, const GPtrArray *bo
   placement->upper = spore_vec3_load(upper);
   placement->middle = spore_vec3_scale(0.5, spore_vec3_add(placement->lower, placement->upper));
   add_tools(placement);
+  add_hanging(placement);
   add_bodies(placement);
   add_section(placement, "links");
   add_section(placement, "tools");

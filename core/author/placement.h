@@ -12,7 +12,8 @@ gboolean spore_body_box(SporeDocument *document, SporeObject *body, double lower
 /* Bodies that move together, and where they and what is placed on them stand before; opaque. */
 typedef struct SporePlacement SporePlacement;
 
-/* Of these bodies (of SporeObject *), with the other bodies of their tools: jaws go with their shaft. Places and
+/* Of these bodies (of SporeObject *), with the other bodies of their tools: jaws go with their shaft; and with what
+ * is tied to nothing but instruments that move: the film of a bag. Places and
  * directions of tools and of a source go with its body; an end of a link goes with the body of that end; what a link
  * has one of goes where all bodies go that the link ties. Valid until objects come or go. */
 SporePlacement *spore_placement_new(SporeDocument *document, const GPtrArray *bodies);

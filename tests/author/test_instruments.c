@@ -132,9 +132,12 @@ static SporeObject *tool_of(const FixtureScene *scene, const SporeObject *body) 
 static void assert_port(const FixtureScene *scene, const SporeObject *body, const SporeInstrumentKind *kind,
                         SporeVec3 entry) {
   const SporeObject *links = spore_document_section(scene->document, "links");
-  g_assert_cmpuint(spore_object_child_count(links), ==, kind->head == SPORE_HEAD_ARC ? 0 : 1);
+  const SporeObject *port = spore_object_child_of(links, "port");
+  g_assert_cmpuint(spore_object_child_count(links), ==,
+                   kind->head == SPORE_HEAD_ARC    ? 0
+                   : kind->head == SPORE_HEAD_HOOP ? 14
+                                                   : 1);
   if (kind->head == SPORE_HEAD_ARC) return;
-  const SporeObject *port = spore_object_child(links, 0);
   g_assert_true(spore_object_refers_to(port, body));
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_object_vector(port, "point"), entry), 0, ROUNDED);
 }

@@ -117,6 +117,23 @@ static void test_instrument(void) {
   }
 }
 
+/* A bag goes with the film that hangs on it; a block that is tied to it and to a wall, too, stays. */
+static void test_bag(void) {
+  const SporeVec3 entry = {0, 0.4, 0.3}, target = {0, 0.05, 0};
+  FixtureScene scene = fixture_scene_new(blocks);
+  g_assert_nonnull(spore_edit_add_instrument(scene.document, spore_instrument_find("bag"), NULL,
+                                             (SporeInstrumentPlaces){&entry, &target}, NULL));
+  SporeObject *rope = spore_document_by_path(scene.document, "links/rope");
+  g_assert_true(spore_document_set_text(scene.document, rope, "body_b", "bag_1", NULL));
+  SporeVec3 film = vector(&scene, "bodies/bag_1_film", "position"), tie = vector(&scene, "links/bag_1_1", "point");
+  g_autoptr(SporePlacement) placement = placement_of(&scene, "bag_1", NULL);
+  move(placement, (SporePose){{0.1, 0, 0}, {1, 0, 0, 0}});
+  assert_at(&scene, "bodies/bag_1_film", "position", film.x + 0.1, film.y, film.z);
+  assert_at(&scene, "links/bag_1_1", "point", tie.x + 0.1, tie.y, tie.z);
+  assert_at(&scene, "bodies/one", "position", 0, 0, 0);
+  fixture_scene_free(&scene);
+}
+
 static void test_align(void) {
   for (int axis = 0; axis < 2; axis++) {
     FixtureScene scene = fixture_scene_new(blocks);
@@ -143,6 +160,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/placement/moves", test_moves);
   g_test_add_func("/placement/turns", test_turns);
   g_test_add_func("/placement/instrument", test_instrument);
+  g_test_add_func("/placement/bag", test_bag);
   g_test_add_func("/placement/align", test_align);
   return g_test_run();
 }

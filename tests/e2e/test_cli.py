@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The command line from end to end, as the contract has it. test_cli.py SPORE FEATURES [KIND PART PARTS]: FEATURES
 is a comma-separated list of what the build holds (assimp, cgal, render, volumes); KIND, PART, PARTS: as tap.main has them."""
+import csv
 import gzip
 import json
 import math
@@ -1516,6 +1517,24 @@ def a_needle_and_a_suction_tube_of_the_library_work():
         track = led(drop, "suction_1", [(0, (0, 0, 0), 0), (0.1, aim, 0), (0.2, aim, button), (0.4, aim, button)])
         taken = report("run", drop, "--input", track, "--time", 0.4)["tools"][0]["taken"]
         assert (taken > 5) == (depth > 0 and button == 1), (depth, button, taken)
+
+
+@check
+@alike
+def a_bag_of_the_library_takes_what_falls_into_it():
+    """A stone above the mouth of a bag of the library falls into the bag and lies in it; one beside falls past."""
+    file("library/stone.off", shapes.off(*shapes.sphere(radius=0.01)))
+    file("library/stone.spheres", "0 0 0 0.01\n")
+    for side, caught in ((0, True), (0.06, False)):
+        scene = file("library/stone.spore", '<spore version="1.0"><solver time_step="0.004"/><assets><mesh name="stone" file="stone.off"/>'
+                     f'<spheres name="felt" file="stone.spheres"/></assets><bodies><body name="stone" position="0 0.03 {side}">'
+                     '<mechanical geometry="stone"><rigid_body density="300"/></mechanical><collision spheres="felt"/><visual mesh="stone"/></body></bodies></spore>\n')
+        assert report("edit", scene, "--instrument", "bag@0.25,0.09,0@-0.09,0,0")["changed"] == ["bodies/bag_1"]
+        assert not [d for d in report("check", scene)["diagnostics"] if "overlap" in d["message"]]
+        done = report("run", scene, "--time", 0.3, "--watch", f"stone@0,0.03,{side}", "--output", "library/stone.csv")
+        rows = list(csv.reader((WORK / "library" / "stone.csv").read_text().splitlines()))
+        height = float(rows[-1][rows[0].index(f"watch.stone@0,0.03,{side}.y [m]")])
+        assert (height > -0.05) == caught and not done["monitor"]["unsolved"], (height, caught)
 
 
 @check

@@ -2468,7 +2468,7 @@ def moved_by_the_gizmo():
 
 
 INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),
-               "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "needle": ("Needle with thread", "needle"),
+               "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "needle": ("Needle with thread", "needle"), "bag": ("Specimen bag", "probe"),
                "endoscope": ("Endoscope", "probe"), "endoscope_30": ("Endoscope, 30 degrees", "probe")}
 
 
@@ -2483,11 +2483,12 @@ def every_instrument_is_placed():
         editor.focus()
         editor.keys("Escape")
         ui.wait(lambda: not editor.showing(entry), "the menu to close")
-        for kind in ("grasper", "needle"):
+        for kind in ("grasper", "needle", "bag"):
             label, tool = INSTRUMENTS[kind]
             editor.act("add-instrument", "s", kind)
             editor.find("label", f"^{label}, click 1 of 2: where it enters")
-            editor.mouse("mousemove", *above, "click", 1)
+            entry = (2 * left[0] - above[0], above[1]) if kind == "bag" else above # which is as long as the way to the other
+            editor.mouse("mousemove", *entry, "click", 1)
             editor.find("label", f"^{label}, click 2 of 2: what it points at")
             bare = picture_sum(editor)
             editor.mouse("mousemove", right[0], right[1] + 4, "mousemove", *right)
@@ -2502,7 +2503,9 @@ def every_instrument_is_placed():
             assert made.get("body") == f"{kind}_1" and made.get("device") == "mouse", made.attrib
             assert (port is None) == (kind == "needle") and (port is None or vector(port.get("point"))[1] > 0.02), kind
             tip = vector(root.find(f"bodies/body[@name='{kind}_1']").get("position"))
-            assert tip[0] > 0.0, (kind, tip)
+            assert kind == "bag" or tip[0] > 0.0, (kind, tip)
+            assert (root.find("bodies/body[@name='bag_1_film']") is not None) == (kind == "bag") == bool(root.findall("links/ball")), kind
+            keep_picture(editor, f"placed-{kind}")
             editor.act("undo")
             ui.wait(lambda: not editor.row(f"{kind}_1") and not editor.row("mouse"), "it to be undone in one step")
 
