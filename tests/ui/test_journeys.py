@@ -3078,6 +3078,35 @@ def budget_of_a_scene():
         ui.wait(lambda: not editor.enabled("undo"), "one step")
 
 
+@check
+def advice_on_a_scene():
+    """the tab Plan asks the advisor which bodies nobody would miss, and applies what was advised as one step of undo; a scene in which nothing moves is refused in words."""
+    path = write_scene("advised", "<rigid_body/>")
+    mist = '<body name="mist" position="1 0 0"><mechanical geometry="ball"><smoke particles="500"/></mechanical><fidelity mode="effect"/></body></bodies>'
+    path.write_text(path.read_text().replace("</bodies>", mist))
+    with start(path) as editor:
+        editor.press(editor.find("radio button", "^Plan$"))
+        apply = editor.find("push button", "^Apply advice$")
+        sensitive = lambda: apply.get_state_set().contains(editor.atspi.StateType.SENSITIVE)
+        assert not sensitive()
+        editor.press(editor.find("push button", r"^Physical or effect\?$"))
+        said = ui.wait(lambda: editor.says("label", "(?s)^Replayed for 1 s.*"), "the advice").group()
+        assert all(re.search(f"^{body}: (Physical|Effect|Still) \\(", said, re.MULTILINE) for body in ("ball", "mist")), said  # by the clock
+        ui.wait(sensitive, "advice to apply")
+        keep_picture(editor, "advised")
+        editor.press(apply)
+        ui.wait(lambda: editor.enabled("undo"), "the verdict")
+        assert re.search('mode="auto"[^>]*advice="(effect|physical)"|advice="(effect|physical)"[^>]*mode="auto"', saved(editor, "advised")), path
+        ui.wait(lambda: not sensitive(), "advice on the scene as it was")
+        editor.act("undo")
+        ui.wait(lambda: not editor.enabled("undo"), "one step")
+    path.write_text(re.sub("<body name=\"(ball|mist)\".*?</body>", "", path.read_text(), flags=re.DOTALL))
+    with start(path) as editor:
+        editor.press(editor.find("radio button", "^Plan$"))
+        editor.press(editor.find("push button", r"^Physical or effect\?$"))
+        editor.find("label", "physics moves no body")
+
+
 def choose_short_study(editor):
     """Two methods over a twentieth of a second."""
     editor.press(editor.find("radio button", "^Accuracy$"))

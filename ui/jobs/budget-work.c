@@ -8,7 +8,6 @@
 SporeBudgetWork *spore_budget_work_new(const SporeDocument *document, double budget_us) {
   SporeBudgetWork *work = g_new0(SporeBudgetWork, 1);
   work->document = spore_document_copy(document);
-  work->revision = spore_document_revision(document);
   work->budget_us = budget_us;
   return work;
 }

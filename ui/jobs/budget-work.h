@@ -7,7 +7,6 @@
 
 typedef struct SporeBudgetWork {
   SporeDocument *document; /* a copy of the scene, the worker's own */
-  guint64 revision;        /* of the scene then */
   double budget_us;
   SporeBudget *budget; /* out; taken by setting it to NULL */
 } SporeBudgetWork;

@@ -8,7 +8,9 @@
 #include "core/io/scene_xml.h"
 #include "ui/jobs/plan-work.h"
 #include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-advice.h"
 #include "ui/panels/spore-budget.h"
+#include "ui/panels/spore-finding.h"
 #include "ui/panels/spore-job-bar.h"
 
 #define DELAY_MS 400 /* after the last change */
@@ -16,7 +18,7 @@
 struct _SporePlanPanel {
   GtkBox parent;
   GtkListStore *store;
-  GtkWidget *tree, *summary, *measure, *copy, *save, *job_bar, *budget;
+  GtkWidget *tree, *summary, *measure, *copy, *save, *job_bar, *budget, *advice_place, *advice;
   SporeEditorDocument *document;
   guint timer;
   gboolean stale; /* the table is not of the scene as it is */
@@ -166,6 +168,7 @@ void spore_plan_set_document(SporePlanPanel *self, SporeEditorDocument *document
   g_signal_connect_object(document, "changed", G_CALLBACK(queue), self, G_CONNECT_SWAPPED);
   clear(self);
   spore_budget_set_document(SPORE_BUDGET(self->budget), document);
+  spore_finding_set_document(SPORE_FINDING(self->advice), document);
   spore_job_bar_set_job(SPORE_JOB_BAR(self->job_bar), NULL);
   gtk_widget_set_sensitive(self->measure, TRUE);
   queue(self);
@@ -196,11 +199,14 @@ static void spore_plan_class_init(SporePlanPanelClass *class) {
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, save);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, job_bar);
   gtk_widget_class_bind_template_child(widget, SporePlanPanel, budget);
+  gtk_widget_class_bind_template_child(widget, SporePlanPanel, advice_place);
   gtk_widget_class_bind_template_callback(widget, measure_clicked);
   gtk_widget_class_bind_template_callback(widget, copy_clicked);
 }
 
 static void spore_plan_init(SporePlanPanel *self) {
   gtk_widget_init_template(GTK_WIDGET(self));
+  self->advice = spore_advice_box_new();
+  gtk_box_pack_start(GTK_BOX(self->advice_place), self->advice, TRUE, TRUE, 0);
   g_signal_connect(self, "map", G_CALLBACK(mapped), NULL);
 }

@@ -1,0 +1,59 @@
+/* What the advisor says. */
+#include <glib/gi18n.h>
+
+#include "core/author/advice_private.h"
+
+/* Why a cheaper form will do. */
+static char *praise_of(const SporeEvidence *evidence, SporeVerdict verdict, gboolean exercise) {
+  static const char *const unmoved[SPORE_VERDICT_COUNT] = {
+      [SPORE_VERDICT_STILL] = N_("nothing else moves otherwise where it stands still"),
+      [SPORE_VERDICT_COARSE] = N_("nothing else moves otherwise at its coarsest level"),
+      [SPORE_VERDICT_EFFECT] = N_("nothing else moves otherwise where its effect takes its place")};
+  const SporeForm *form = &evidence->forms[verdict];
+  GString *text = g_string_new(form->left_out ? _("nothing else moves otherwise without it") : _(unmoved[verdict]));
+  if (verdict == SPORE_VERDICT_STILL)
+    g_string_append_printf(text, _("; it moves by %.2g %% of its length at most"), 100 * evidence->own_motion);
+  if (exercise) g_string_append(text, _("; the exercise has the same steps done and the same score"));
+  g_string_append_printf(text, _("; %.0f %% of a step is saved"), 100 * form->saved_us / evidence->step_us);
+  return g_string_free(text, FALSE);
+}
+
+char *spore_advice_reason(const SporeAdviceBody *body, const SporeExerciseState *exercise,
+                          const SporeSimulation *simulation) {
+  const SporeEvidence *evidence = &body->evidence;
+  const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
+  if (evidence->held) return g_strdup_printf(_("\"%s\" acts on it"), evidence->held);
+  if (evidence->alone) return g_strdup(_("it is all that moves by physics"));
+  if (evidence->events)
+    return g_strdup(_("an instrument or a load does to it what does not happen without it: it is cut, coagulated, "
+                      "taken, held, or breaks"));
+  if (body->verdict != SPORE_VERDICT_PHYSICAL) return praise_of(evidence, body->verdict, exercise->steps > 0);
+  if (evidence->awaited)
+    return g_strdup_printf(_("step \"%s\" of the exercise is done to it, and not done with this input"),
+                           evidence->awaited);
+  if (out->influence.rms > evidence->floor && out->influence.worst_body != SPORE_NO_BODY)
+    return g_strdup_printf(_("without it \"%s\" is up to %.2g %% of its length elsewhere"),
+                           spore_world_body_name(simulation->world, out->influence.worst_body),
+                           100 * out->influence.worst);
+  if (out->influence.force > evidence->force_floor)
+    return g_strdup_printf(_("without it hands feel %.2g N less or more"), out->influence.force);
+  if (out->influence.steps > 0)
+    return g_strdup_printf(_("without it step \"%s\" of the exercise is done otherwise"),
+                           spore_exercise_step_state(simulation->exercise, out->influence.step).name);
+  if (out->influence.score > evidence->score_floor)
+    return g_strdup_printf(_("without it the score of the exercise is %.1f away"), out->influence.score);
+  if (!(out->saved_us > 0)) return g_strdup(_("leaving it out saves nothing"));
+  return g_strdup_printf(_("leaving it out saves %.1f %% of a step, which is not worth it"),
+                         100 * out->saved_us / evidence->step_us);
+}
+
+const char *spore_advice_change(const SporeAdviceBody *body, double *saved_us) {
+  static const char *const changes[SPORE_VERDICT_COUNT] = {[SPORE_VERDICT_STILL] = N_("make it unmovable"),
+                                                           [SPORE_VERDICT_COARSE] = N_("begin at its coarsest level"),
+                                                           [SPORE_VERDICT_EFFECT] =
+                                                               N_("let its special effect take its place")};
+  if (body->verdict == SPORE_VERDICT_PHYSICAL) return NULL;
+  const SporeForm *form = &body->evidence.forms[body->verdict];
+  if (saved_us) *saved_us = form->saved_us;
+  return form->left_out ? _("let a special effect take its place, or leave it out") : _(changes[body->verdict]);
+}
