@@ -116,33 +116,75 @@ static Picture draw_clipped(const Bench *bench, const SporeClip *clip, gboolean 
   return picture;
 }
 
-/* A plane takes the near half of a body away, and what the body holds is seen; a plane behind which all lies, and the
- * other side of the first one, leave the picture as it was. */
-static void test_clip(void) {
+/* Half of an organ beyond a plane, with a sphere within and one that the plane goes through. Pictures: whole, cut by a
+ * plane behind which all lies, cut open, and cut from the other side. */
+static void draw_cut(const Bench *bench, const SporeTriangleMesh *mesh, gsize triangle_count, gboolean antialias,
+                     Picture pictures[4]) {
   const SporeSurfaceStyle style = {{0.7f, 0.02f, 0.02f}, 0, FALSE, FALSE, FALSE};
+  const SporeClip clips[4] = {{{0}}, {{0, 0, 1}, 0.2}, {{0, 0, 1}, 0}, {{0, 0, -1}, 0}};
   static const double within[4] = {0, 0, -0.01, 0.009}, half[4] = {0.01, 0.02, 0.002, 0.008};
-  const SporeClip none = {0}, all = {{0, 0, 1}, 0.2}, near = {{0, 0, 1}, 0}, far = {{0, 0, -1}, 0};
+  guint surface = spore_renderer_add_surface(bench->renderer, mesh->vertices, mesh->vertex_count, mesh->triangles,
+                                             triangle_count, &style);
+  guint spheres[2] = {spore_renderer_add_spheres(bench->renderer, within, 1, blue, NULL, FALSE),
+                      spore_renderer_add_spheres(bench->renderer, half, 1, blue, NULL, FALSE)};
+  for (int i = 0; i < 4; i++) pictures[i] = draw_clipped(bench, &clips[i], antialias);
+  for (int i = 0; i < 2; i++) spore_renderer_remove(bench->renderer, spheres[i]);
+  spore_renderer_remove(bench->renderer, surface);
+}
+
+/* A plane takes the near half of a body away, and what the body holds is seen where its surface is open; the cut of a
+ * closed one is filled. A plane behind which all lies, and the other side of the first one, leave the picture as it
+ * was. */
+static void test_clip(void) {
   Bench bench = bench_open();
   SporeTriangleMesh mesh = make_organ(0.05);
-  spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles, mesh.triangle_count,
-                             &style);
-  spore_renderer_add_spheres(bench.renderer, within, 1, blue, NULL, FALSE);
-  spore_renderer_add_spheres(bench.renderer, half, 1, blue, NULL, FALSE);
-  for (int antialias = 0; antialias < 2; antialias++) {
-    Picture whole = draw_clipped(&bench, &none, antialias), same = draw_clipped(&bench, &all, antialias);
-    Picture open = draw_clipped(&bench, &near, antialias), other = draw_clipped(&bench, &far, antialias);
-    PictureDifference difference = picture_compare(&whole, &same);
-    g_assert_cmpfloat(difference.mean, <, 0.02);
-    g_assert_true(is_red(&whole, 100, 75));
-    g_assert_true(is_blue(&open, 100, 75));
-    g_assert_true(is_blue(&open, 100 + 7, 75 - 14)); /* the sphere that the plane goes through, from within */
-    g_assert_true(is_red(&open, 100 - 20, 75));
-    g_assert_true(is_red(&other, 100, 75));
-    g_assert_cmpfloat(picture_compare(&whole, &open).mean, >, 2);
-    picture_clear(&whole), picture_clear(&same), picture_clear(&open), picture_clear(&other);
+  for (int way = 0; way < 4; way++) {
+    gboolean closed = way & 1;
+    Picture pictures[4], *whole = &pictures[0], *open = &pictures[2];
+    draw_cut(&bench, &mesh, mesh.triangle_count - !closed, way >> 1, pictures);
+    g_assert_cmpfloat(picture_compare(whole, &pictures[1]).mean, <, 0.02);
+    g_assert_true(is_red(whole, 100, 75));
+    g_assert_cmpint(is_blue(open, 100, 75), ==, !closed);
+    g_assert_cmpint(is_blue(open, 100 + 7, 75 - 14), ==, !closed); /* the sphere that is cut, from within */
+    g_assert_cmpint(is_red(open, 100, 75), ==, closed);
+    g_assert_true(is_red(open, 100 - 20, 75));
+    g_assert_true(is_red(&pictures[3], 100, 75));
+    g_assert_cmpfloat(picture_compare(whole, open).mean, >, 2);
+    for (int i = 0; i < 4; i++) picture_clear(&pictures[i]);
   }
   spore_triangle_mesh_clear(&mesh);
   bench_close(&bench);
+}
+
+/* The cut of a closed body is as bright in its middle as beside it, in the colour of the body, and ends where the body
+ * does; a smaller body within is seen in the cut of the larger one, whichever was added first. */
+static void test_caps(void) {
+  const SporeSurfaceStyle outer = {{0.7f, 0.02f, 0.02f}, 0, SPORE_MATERIAL_TISSUE, FALSE, FALSE},
+                          inner = {{0.02f, 0.02f, 0.7f}, 0, SPORE_MATERIAL_TISSUE, FALSE, FALSE};
+  const SporeClip near = {{0, 0, 1}, 0};
+  SporeTriangleMesh large = make_organ(0.05), small = make_organ(0.02);
+  for (int order = 0; order < 2; order++) {
+    Bench bench = bench_open();
+    for (int i = 0; i < 2; i++) {
+      const SporeTriangleMesh *mesh = i == order ? &large : &small;
+      spore_renderer_add_surface(bench.renderer, mesh->vertices, mesh->vertex_count, mesh->triangles,
+                                 mesh->triangle_count, i == order ? &outer : &inner);
+    }
+    for (int antialias = 0; antialias < 2; antialias++) {
+      Picture open = draw_clipped(&bench, &near, antialias);
+      int left[3], right[3];
+      picture_pixel(&open, 100 - 26, 75, left);
+      picture_pixel(&open, 100 + 26, 75, right);
+      g_assert_true(is_red(&open, 100 - 26, 75) && is_red(&open, 100 + 26, 75));
+      g_assert_cmpint(abs(left[0] - right[0]), <, 40);
+      g_assert_true(is_blue(&open, 100, 75));
+      g_assert_false(is_red(&open, 100 - 60, 75));
+      picture_clear(&open);
+    }
+    bench_close(&bench);
+  }
+  spore_triangle_mesh_clear(&large);
+  spore_triangle_mesh_clear(&small);
 }
 
 /* What lies in no cone is tinted, and nothing else: by depth, by angle, and where another cone reaches it. */
@@ -318,6 +360,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/impostors-fast", test_impostors_fast);
   g_test_add_func("/render/renderer/impostors-full", test_impostors_full);
   g_test_add_func("/render/renderer/clip", test_clip);
+  g_test_add_func("/render/renderer/caps", test_caps);
   g_test_add_func("/render/renderer/tint", test_tint);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);

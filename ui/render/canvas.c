@@ -24,6 +24,7 @@ gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVa
   GPtrArray *drawables = canvas->drawables;
   SporePrograms *programs = &canvas->programs;
   return spore_surface_pass(drawables, frame, programs, variant, error) &&
+         spore_cap_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) && background(canvas, variant, error) &&
          (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
          spore_puff_pass(drawables, frame, programs, variant, error) &&

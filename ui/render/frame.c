@@ -61,6 +61,7 @@ static void set_clip(SporeFrame *frame, const SporeClip *clip, SporeVec3 right, 
   out[0] = (float)spore_vec3_dot(clip->normal, right), out[1] = (float)spore_vec3_dot(clip->normal, up);
   out[2] = (float)-spore_vec3_dot(clip->normal, forward);
   out[3] = (float)(spore_vec3_dot(clip->normal, frame->eye) - clip->distance);
+  frame->clip = *clip;
   frame->clips = spore_clip_is_on(clip);
 }
 

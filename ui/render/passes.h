@@ -58,6 +58,7 @@ typedef struct SporeFrame {
   SporeFrameBlock block;
   SporeVec3 eye;    /* world, m */
   double near, far; /* m */
+  SporeClip clip;   /* in the world */
   gboolean clips;   /* something may be hidden by the plane */
 } SporeFrame;
 
@@ -140,6 +141,10 @@ void spore_frame_clip(const SporeFrame *frame, gboolean clips);
 /* Passes: draw every visible drawable of their kind (NULL entries are skipped) to the bound framebuffer. */
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, GError **error);
+/* Fills the faces at which the plane of the frame cuts closed surfaces, as the inside of each; those of open surfaces
+ * stay open. Uses the stencil of the framebuffer. */
+gboolean spore_cap_pass(const GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
+                        SporeVariant variant, GError **error);
 /* overlays FALSE: solid spheres; TRUE: overlays, dimmed where hidden. */
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error);
@@ -160,7 +165,7 @@ typedef struct SporeTarget {
   GLuint framebuffer, colour, depth; /* textures when samples is 0, else renderbuffers */
 } SporeTarget;
 /* Makes the buffers again only when the size or the samples changed. colour_format or depth_format 0: no such buffer.
- * */
+ * GL_DEPTH24_STENCIL8: with a stencil. */
 gboolean spore_target_prepare(SporeTarget *target, int width, int height, int samples, GLenum colour_format,
                               GLenum depth_format, GError **error);
 /* Makes the target the one that is drawn into, over its whole area. */

@@ -28,10 +28,10 @@ static gboolean prepare(SporePicture *picture, const SporeTarget *screen, int sc
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   }
   int glow_width = MAX(1, width / GLOW_SHARE), glow_height = MAX(1, height / GLOW_SHARE);
-  return spore_target_prepare(&picture->depth, width, height, 0, 0, GL_DEPTH_COMPONENT24, error) &&
+  return spore_target_prepare(&picture->depth, width, height, 0, 0, GL_DEPTH24_STENCIL8, error) &&
          spore_target_prepare(&picture->occlusion, width, height, 0, GL_R8, 0, error) &&
          spore_target_prepare(&picture->smoothed, width, height, 0, GL_R8, 0, error) &&
-         spore_target_prepare(&picture->colour, width * scale, height * scale, 0, GL_RGBA16F, GL_DEPTH_COMPONENT24,
+         spore_target_prepare(&picture->colour, width * scale, height * scale, 0, GL_RGBA16F, GL_DEPTH24_STENCIL8,
                               error) &&
          spore_target_prepare(&picture->glow, glow_width, glow_height, 0, GL_RGBA16F, 0, error) &&
          spore_target_prepare(&picture->glare, glow_width, glow_height, 0, GL_RGBA16F, 0, error);
@@ -43,7 +43,9 @@ static gboolean draw_depth(SporeCanvas *canvas, const SporeFrame *frame, const S
   spore_target_bind(target);
   glClear(GL_DEPTH_BUFFER_BIT);
   glFrontFace(variant == SPORE_VARIANT_SHADOW ? GL_CCW : GL_CW); /* only the eye's projection is upside down */
+  gboolean caps = variant != SPORE_VARIANT_SHADOW; /* the lamp's map has no stencil, and what is cut away no shadow */
   gboolean drawn = spore_surface_pass(canvas->drawables, frame, &canvas->programs, variant, error) &&
+                   (!caps || spore_cap_pass(canvas->drawables, frame, &canvas->programs, variant, error)) &&
                    spore_sphere_pass(canvas->drawables, frame, &canvas->programs, variant, FALSE, error);
   glFrontFace(GL_CW);
   return drawn;

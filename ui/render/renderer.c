@@ -194,7 +194,7 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, co
   int width = screen->width, height = screen->height;
   if (renderer->samples) {
     if (!spore_target_prepare(&renderer->sampled, width, height, renderer->samples, GL_SRGB8_ALPHA8,
-                              GL_DEPTH_COMPONENT24, error))
+                              GL_DEPTH24_STENCIL8, error))
       return FALSE;
     target = &renderer->sampled;
   }
@@ -239,7 +239,7 @@ gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera,
   }
   if (options->grid) spore_grid_update(renderer->canvas.grid, camera);
   set_state();
-  if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24, error))
+  if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
     return FALSE;
   gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options,
                                                            &renderer->screen, renderer->largest, error)

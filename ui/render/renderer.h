@@ -86,7 +86,7 @@ typedef struct SporeRenderOptions {
   int width, height;
   gboolean grid; /* floor grid and axes: editing; off for pictures. Never clipped */
   gboolean antialias;
-  SporeClip clip; /* bodies are seen from inside where it takes their near side away */
+  SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;
 /* Draws and reads back: pixels is height rows of `stride` bytes, top first, as CAIRO_FORMAT_RGB24 (native BGRx). */
 gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,

@@ -4,11 +4,16 @@
 #include "ui/render/passes.h"
 
 static GLuint make_texture(GLenum format, int width, int height, gboolean depth) {
+  gboolean stencil = format == GL_DEPTH24_STENCIL8;
+  GLenum content = stencil ? GL_DEPTH_STENCIL : depth ? GL_DEPTH_COMPONENT : GL_RGBA;
   GLuint texture;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, depth ? GL_DEPTH_COMPONENT : GL_RGBA,
-               depth ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE, NULL);
+  glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, content,
+               stencil ? GL_UNSIGNED_INT_24_8
+               : depth ? GL_UNSIGNED_INT
+                       : GL_UNSIGNED_BYTE,
+               NULL);
   GLint filter = depth ? GL_NEAREST : GL_LINEAR;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
@@ -43,7 +48,8 @@ gboolean spore_target_prepare(SporeTarget *target, int width, int height, int sa
   glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
   if (colour_format) target->colour = attach(target, GL_COLOR_ATTACHMENT0, colour_format, FALSE);
   else glDrawBuffer(GL_NONE), glReadBuffer(GL_NONE);
-  if (depth_format) target->depth = attach(target, GL_DEPTH_ATTACHMENT, depth_format, TRUE);
+  GLenum point = depth_format == GL_DEPTH24_STENCIL8 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+  if (depth_format) target->depth = attach(target, point, depth_format, TRUE);
   GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER), code = glGetError();
   if (status == GL_FRAMEBUFFER_COMPLETE && code == GL_NO_ERROR) return TRUE;
   spore_target_clear(target);
