@@ -35,8 +35,8 @@ static const SporeParameter camera_parameters[] = {
      .maximum = 1.6,
      FIELD(SporeCameraFields, angle),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("How far it looks aside from the axis from its position to its target; 0.5236 for an endoscope of 30 "
-               "degrees.")},
+     .doc = N_("How far it looks aside from the axis from its position to its target: 30 degrees for most endoscopes "
+               "that look aside.")},
     {.name = "turn",
      .type = SPORE_REAL,
      .unit = "rad",
@@ -44,8 +44,8 @@ static const SporeParameter camera_parameters[] = {
      .maximum = 3.1416,
      FIELD(SporeCameraFields, turn),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("To which side it looks aside, as the optic is turned about that axis: 0: down, 1.571: to the right, "
-               "-1.571: to the left.")},
+     .doc = N_("To which side it looks aside, as the optic is turned about that axis: 0: down, a quarter of a turn: to "
+               "the right, a quarter of a turn back: to the left.")},
     {.name = "field_of_view",
      .type = SPORE_REAL,
      .unit = "rad",

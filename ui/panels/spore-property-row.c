@@ -139,6 +139,41 @@ static char *typed_text(SporePropertyRow *self, const char *typed) {
   return digits == 0 ? g_steal_pointer(&text) : spore_number_text_shift(text, digits);
 }
 
+/* What a number may be, in the unit that is shown. NULL: anything, or no number. g_free. */
+static char *range_text(const SporeParameter *parameter, const char *unit) {
+  double scale = spore_unit_scale(parameter->unit), least = parameter->minimum * scale,
+         most = parameter->maximum * scale;
+  gboolean low = isfinite(least), high = isfinite(most);
+  if (parameter->type != SPORE_REAL && parameter->type != SPORE_INTEGER && parameter->type != SPORE_VECTOR) return NULL;
+  if (low && high) return g_strdup_printf(_("From %g to %g %s"), least, most, unit);
+  if (low) return g_strdup_printf(_("At least %g %s"), least, unit);
+  if (high) return g_strdup_printf(_("At most %g %s"), most, unit);
+  return NULL;
+}
+
+/* Why numbers as the file has them are refused, in the unit that is shown: the file's is not what was typed. NULL: they
+ * are not. Integers have no unit. g_free. */
+static char *refusal(const SporeParameter *parameter, const char *text) {
+  int count = 0, expected = parameter->type == SPORE_VECTOR ? 3 : 1;
+  gboolean whole = TRUE, within = TRUE;
+  g_auto(GStrv) words = g_strsplit_set(text, " \t", -1);
+  if (parameter->type != SPORE_REAL && parameter->type != SPORE_VECTOR) return NULL;
+  for (char **word = words; *word; word++) {
+    char *end;
+    double number = g_ascii_strtod(*word, &end);
+    if (!**word) continue;
+    whole = whole && !*end && isfinite(number);
+    within = within && number >= parameter->minimum && number <= parameter->maximum;
+    count++;
+  }
+  if (whole && within && count == expected) return NULL;
+  g_autofree char *unit = spore_unit_label(parameter->unit), *range = range_text(parameter, unit);
+  const char *what = whole && count == expected ? _("Out of range")
+                     : expected == 3            ? _("Three numbers are expected")
+                                                : _("A number is expected");
+  return range ? g_strdup_printf("%s. %s", what, range) : g_strdup(what);
+}
+
 static void entry_commit(SporePropertyRow *self) {
   const char *typed = gtk_entry_get_text(GTK_ENTRY(self->editor));
   g_autofree char *text = typed_text(self, typed), *before = self->shown ? entry_text(self, self->shown) : NULL;
@@ -146,7 +181,9 @@ static void entry_commit(SporePropertyRow *self) {
     complain(self, NULL);
     return;
   }
-  change(self, *text == '\0' && is_number(self) ? NULL : text);
+  g_autofree char *refused = *text ? refusal(parameter_of(self), text) : NULL;
+  if (refused) complain(self, refused);
+  else change(self, *text == '\0' && is_number(self) ? NULL : text);
 }
 
 static gboolean entry_left(GtkWidget *entry, GdkEvent *event, SporePropertyRow *self) {
@@ -314,17 +351,6 @@ void spore_property_row_refresh(SporePropertyRow *self) {
 }
 
 /* Label and hints, from the table. */
-
-static char *range_text(const SporeParameter *parameter, const char *unit) {
-  double scale = spore_unit_scale(parameter->unit), least = parameter->minimum * scale,
-         most = parameter->maximum * scale;
-  gboolean low = isfinite(least), high = isfinite(most);
-  if (parameter->type != SPORE_REAL && parameter->type != SPORE_INTEGER && parameter->type != SPORE_VECTOR) return NULL;
-  if (low && high) return g_strdup_printf(_("From %g to %g %s"), least, most, unit);
-  if (low) return g_strdup_printf(_("At least %g %s"), least, unit);
-  if (high) return g_strdup_printf(_("At most %g %s"), most, unit);
-  return NULL;
-}
 
 static void describe(SporePropertyRow *self) {
   static const char *const tags[] = {N_("live"), N_("rebuild"), N_("restart")};
