@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/level_edits.h"
 #include "core/author/soft_edits.h"
 #include "ui/spore-window-private.h"
 
@@ -59,6 +60,35 @@ static void act_make_soft(GSimpleAction *action, GVariant *parameter, gpointer d
   SporeSoftWork *work = bodies->len ? spore_soft_work_new(document_of(self), bodies, &error) : NULL;
   if (work) spore_window_start_job(self, _("Making soft"), spore_soft_work_run, work, spore_soft_work_free, made_soft);
   else spore_window_failed(self, error);
+}
+
+/* Levels of detail. */
+
+static void made_level(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  g_autoptr(GError) failure = NULL;
+  if (spore_window_failed(self, error) || !self->document) return;
+  SporeObject *level = spore_level_work_apply(data, document_of(self), &failure);
+  if (!level) spore_window_failed(self, failure);
+}
+
+static void act_add_level(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  const char *element = g_variant_get_string(parameter, NULL);
+  g_autoptr(GError) error = NULL;
+  if (!body || (!g_str_equal(element, "coarse") && !g_str_equal(element, "medium"))) return;
+  SporeLevelWork *work = spore_level_work_new(document_of(self), body, element, &error);
+  if (work)
+    spore_window_start_job(self, _("Making a level"), spore_level_work_run, work, spore_level_work_free, made_level);
+  else spore_window_failed(self, error);
+}
+
+static void act_remove_level(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_edit_remove_level(document_of(self), g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
 }
 
 /* Holding. */
@@ -133,6 +163,8 @@ void spore_window_add_body_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"select-organs", act_select_organs},
       {"make-soft", act_make_soft},
+      {"add-level", act_add_level, "s"},
+      {"remove-level", act_remove_level, "s"},
       {"add-pin", act_add_pin},
       {"hide", act_hide},
       {"isolate", act_hide},

@@ -91,6 +91,7 @@ static const struct {
     {"rename", NAMED | ALONE},
     {"rename-dialog", NAMED | ALONE},
     {"make-soft", IDLE | SOFT},
+    {"add-level", IDLE | BODY},
     {"hide", BODY},
     {"isolate", BODY},
     {"show-all", HIDDEN},

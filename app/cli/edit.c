@@ -8,6 +8,7 @@
 #include "core/author/edits.h"
 #include "core/author/fluid_edits.h"
 #include "core/author/instrument_edits.h"
+#include "core/author/level_edits.h"
 #include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/port_edits.h"
@@ -18,7 +19,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
+  char **add, **soft, **level, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
   SporeCliPlacing placing;
   gboolean probe;
 } Request;
@@ -81,6 +82,25 @@ static gboolean make_soft(SporeCli *cli, SporeDocument *document, char **names, 
   for (guint i = 0; done->soft && i < bodies->len; i++) note(done->changed, bodies->pdata[i]);
   return done->soft && spore_soft_work_run(done->soft, spore_cli_progress(cli), error) &&
          refuse_left_out(done->soft, error) && spore_soft_work_apply(done->soft, document, error);
+}
+
+/* BODY=LEVEL */
+static gboolean add_level(SporeCli *cli, SporeDocument *document, const char *text, GPtrArray *changed,
+                          GError **error) {
+  const char *equals = strrchr(text, '=');
+  g_autofree char *name = equals ? g_strndup(text, (gsize)(equals - text)) : NULL;
+  if (!equals || (!g_str_equal(equals + 1, "coarse") && !g_str_equal(equals + 1, "medium")))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                             _("this is no body and a level; expected BODY=coarse or BODY=medium, such as "
+                               "liver=coarse"));
+  SporeObject *body = spore_cli_find_body(document, "--level", name, error);
+  SporeLevelWork *work = body ? spore_level_work_new(document, body, equals + 1, error) : NULL;
+  SporeObject *level = work && spore_level_work_run(work, spore_cli_progress(cli), error)
+                           ? spore_level_work_apply(work, document, error)
+                           : NULL;
+  if (level) note(changed, level);
+  g_clear_pointer(&work, spore_level_work_free);
+  return level != NULL;
 }
 
 static gboolean set(SporeDocument *document, const char *setting, GPtrArray *changed, GError **error) {
@@ -209,6 +229,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     note(changed, added);
   }
   if (request->soft && !make_soft(cli, document, request->soft, done, error)) return FALSE;
+  for (char **text = request->level; text && *text; text++)
+    if (!add_level(cli, document, *text, changed, error)) return FALSE;
   for (char **setting = request->set; setting && *setting; setting++)
     if (!set(document, *setting, changed, error)) return FALSE;
   if (request->patient && !spore_edit_lay_patient(document, request->patient, error)) return FALSE;
@@ -287,6 +309,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Make an organ soft, before anything is set: tetrahedra, spheres, the tissue that its name says, and a pin "
           "where no link holds it (may be repeated)"),
        "BODY"},
+      {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.level,
+       N_("Add a coarser level of detail to a body, of about a quarter (coarse) or half (medium) of its degrees of "
+          "freedom: liver=coarse (may be repeated)"),
+       "BODY=LEVEL"},
       {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &request.set,
        N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
       {"patient", 0, 0, G_OPTION_ARG_STRING, &request.patient,
@@ -340,17 +366,18 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  gboolean any = request.add || request.soft || request.set || request.patient || request.hold || request.instrument ||
-                 request.fluid || request.mirror || request.port || request.placing.move || request.placing.turn ||
-                 request.placing.scale || request.placing.align || request.probe;
+  gboolean any = request.add || request.soft || request.level || request.set || request.patient || request.hold ||
+                 request.instrument || request.fluid || request.mirror || request.port || request.placing.move ||
+                 request.placing.turn || request.placing.scale || request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --add, --soft, --set, --patient, --hold, "
+        _("spore edit: nothing is asked for; expected --add, --soft, --level, --set, --patient, --hold, "
           "--instrument, --mirror, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.add);
   g_strfreev(request.soft);
+  g_strfreev(request.level);
   g_strfreev(request.set);
   g_strfreev(request.hold);
   g_strfreev(request.fluid);

@@ -235,6 +235,35 @@ def a_scene_is_authored_by_commands():
 
 @check
 @long_run
+def levels_are_added_to_bodies():
+    """--level makes a coarser form of a body, of fewer cells or of fewer points along its line, which a run takes; what has one, or cannot have one, is refused."""
+    file("levels/organ.off", shapes.off(*shapes.sphere(radius=0.03)))
+    file("levels/cord.curve", "".join(f"{i / 100} 0 0.1 0.002\n" for i in range(11)))
+    scene = file("levels/levels.spore", '<spore version="1.0"><assets><mesh name="skin" file="organ.off"/>'
+                 '<curve name="line" file="cord.curve"/></assets><bodies><body name="organ"><visual mesh="skin"/></body>'
+                 '<body name="cord"><mechanical geometry="line"><spline_1d control_points="20"/></mechanical></body>'
+                 '<body name="stone"><mechanical geometry="skin"><rigid_body/></mechanical></body></bodies></spore>\n')
+    spore("tetrahedra", scene, "--body", "organ", "--cells", 1200)
+    made = report("edit", scene, "--level", "organ=coarse", "--level", "cord=coarse", "--level", "cord=medium")
+    assert made["changed"] == ["bodies/organ/fidelity/coarse", "bodies/cord/fidelity/coarse", "bodies/cord/fidelity/medium"], made
+    tree = xml.etree.ElementTree.parse(scene).getroot()
+    assert tree.find("bodies/body[@name='organ']/fidelity/coarse").get("geometry") == "organ_coarse"
+    fine, coarse = (int((WORK / "levels" / tree.find(f"assets/tetrahedra[@name='organ_{name}']").get("file")).read_text().split("Tetrahedra")[1].split()[0])
+                    for name in ("tetrahedra", "coarse"))
+    assert 0.1 < coarse / fine < 0.5, (fine, coarse)
+    assert [tree.find(f"bodies/body[@name='cord']/fidelity/{level}").get("settings") for level in ("coarse", "medium")] == ["control_points=8", "control_points=12"]
+    assert not [one for one in report("check", scene)["diagnostics"] if "level" in one["message"]]
+    ran = spore("run", scene, "--steps", 4, "--level", "cord=coarse@0.001").stdout
+    assert "cord: level fine to coarse" in ran, ran
+    before = scene.read_text()
+    refuses("edit", scene, "--level", "organ=coarse", says=["has a level of that name already"])
+    refuses("edit", scene, "--level", "stone=coarse", says=["Rigid body has no number"])
+    refuses("edit", scene, "--level", "organ=fine", says=["expected BODY=coarse or BODY=medium"])
+    assert scene.read_text() == before
+
+
+@check
+@long_run
 def organs_are_made_soft_by_one_option():
     """--soft makes tetrahedra, spheres, tissue by name and a pin, before --set, which has the last word; what it cannot do changes nothing."""
     file("liver.off", shapes.off(*shapes.sphere(radius=30)))

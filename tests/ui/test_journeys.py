@@ -539,10 +539,19 @@ def make_solid_ball(editor, count=200):
 
 
 @check
-def regions_are_added_and_deleted():
-    """a region is added, changed and deleted in the inspector, a step each, and shown in the view; the scene runs with it."""
+def regions_and_levels_are_added_and_deleted():
+    """a region is added, changed and deleted in the inspector, a step each, and shown in the view; the scene runs with it; a coarser level is made, listed, refused a second time in words, and deleted with its tetrahedra."""
     with start() as editor:
         make_solid_ball(editor)
+        editor.act("add-level", "s", "coarse")
+        button = editor.find("push button", "^Delete: Coarse level$", showing=False)
+        ui.wait(lambda: editor.enabled("add-level"), "the work to end")
+        editor.act("add-level", "s", "coarse")
+        ui.wait(lambda: "has a level of that name already" in (editor.message() or ""), "the refusal of a second one")
+        assert '<coarse geometry="ball_coarse"/>' in saved(editor, "region")
+        editor.press(button)
+        ui.wait(lambda: not editor.row("ball_coarse"), "the level and its tetrahedra to go")
+        assert "<coarse" not in saved(editor, "region")
         editor.act("view", "s", "front")
         editor.find("label", "All of it is of one tissue", showing=False)
         bare = yellow(editor)
@@ -1155,6 +1164,10 @@ def inspector_sets_a_property():
             ui.wait(lambda: re.search(f' rotation="{written}"', saved(editor, "property")), "the angle in the file, in radians")
             ui.wait(lambda: editor.text_of(rotation()) == shown, "the angle in the window, in degrees")
         assert editor.look("label", "^°$", showing=False), "the sign says that they are degrees"
+        for typed, says in (("0 0 99999", "^Out of range. From -57295.8 to 57295.8 °$"), ("0 0", "^Three numbers are expected. From -57295.8 to 57295.8 °$")):
+            editor.set_entry(rotation(), typed)
+            editor.find("label", says, showing=False)
+        assert re.search(r'rotation="0 0 1\.571"', saved(editor, "property")), "what is refused is not written"
         keep_picture(editor, "degrees")
 
 

@@ -17,7 +17,7 @@ static GtkWidget *new_button(GtkWidget *button, const char *action, const char *
   return button;
 }
 
-static GtkWidget *new_icon(const char *icon, const char *text, const char *action, const char *path) {
+GtkWidget *spore_row_icon_new(const char *icon, const char *text, const char *action, const char *path) {
   GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
   gtk_style_context_add_class(gtk_widget_get_style_context(button), "row-button");
   gtk_button_set_relief(GTK_BUTTON(button), GTK_RELIEF_NONE);
@@ -35,8 +35,8 @@ static GtkWidget *new_head(SporeObject *region, const char *path) {
   gtk_widget_set_hexpand(name, TRUE);
   gtk_style_context_add_class(gtk_widget_get_style_context(name), "heading");
   gtk_container_add(GTK_CONTAINER(head), name);
-  gtk_container_add(GTK_CONTAINER(head), new_icon("find-location-symbolic", place, "place-region", path));
-  gtk_container_add(GTK_CONTAINER(head), new_icon("edit-delete-symbolic", delete, "remove-region", path));
+  gtk_container_add(GTK_CONTAINER(head), spore_row_icon_new("find-location-symbolic", place, "place-region", path));
+  gtk_container_add(GTK_CONTAINER(head), spore_row_icon_new("edit-delete-symbolic", delete, "remove-region", path));
   return head;
 }
 

@@ -13,4 +13,8 @@
 void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const char *holder, const SporeObjectType *type,
                             const char *empty, GPtrArray *rows);
 
+/* A button in a list that activates an action of the window with the path of what it stands beside. text: for people,
+ * translated. */
+GtkWidget *spore_row_icon_new(const char *icon, const char *text, const char *action, const char *path);
+
 #endif

@@ -17,6 +17,7 @@
 #include "ui/jobs/spore-swing-measures.h"
 #include "ui/panels/asset-facts.h"
 #include "ui/panels/batch.h"
+#include "ui/panels/level-list.h"
 #include "ui/panels/region-list.h"
 #include "ui/panels/spore-generator-box.h"
 #include "ui/panels/spore-model-choice.h"
@@ -320,8 +321,11 @@ static void add_body(SporeInspector *self, SporeObject *body) {
     add_regions(self, body, model);
     add_mapping(self, path);
   }
-  GtkBox *fidelity = spore_section_list_add(sections_of(self), _("Fidelity"), path, NULL);
-  if (fidelity) add_unit(self, fidelity, body, "fidelity");
+  GtkBox *fidelity =
+      spore_section_list_add(sections_of(self), _("Fidelity"), path, spore_object_child_of(body, "fidelity"));
+  if (!fidelity) return;
+  add_unit(self, fidelity, body, "fidelity");
+  if (model) spore_add_level_list(fidelity, self->document, body, spore_section_rows(fidelity));
 }
 
 /* Of gravity: the positions of a patient. */

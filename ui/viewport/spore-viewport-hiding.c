@@ -42,12 +42,21 @@ void spore_viewport_show_all(SporeViewport *self) {
 
 /* The menu. */
 
+static GMenu *menu_of_levels(void) {
+  GMenu *menu = g_menu_new();
+  g_menu_append(menu, _("Coarse: a quarter"), "win.add-level::coarse");
+  g_menu_append(menu, _("Medium: half"), "win.add-level::medium");
+  return menu;
+}
+
 static GMenu *menu_of_body(SporeViewport *self) {
   GMenu *menu = g_menu_new();
+  g_autoptr(GMenu) levels = menu_of_levels();
   g_menu_append(menu, _("Make soft"), "win.make-soft");
   g_menu_append(menu, _("Hold"), "win.add-pin");
   g_menu_append_submenu(menu, _("Add link"), self->link_kinds);
   g_menu_append_submenu(menu, _("Add fluid"), self->fluid_kinds);
+  g_menu_append_submenu(menu, _("Add level of detail"), G_MENU_MODEL(levels));
   g_menu_append(menu, _("Hide"), "win.hide");
   g_menu_append(menu, _("Show only this"), "win.isolate");
   g_menu_append(menu, _("Show all"), "win.show-all");
