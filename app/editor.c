@@ -34,6 +34,7 @@ int main(int argc, char **argv) {
   gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
   spore_catalogue_start();
   spore_ending_translate();
+  spore_ending_on_signals();
   g_set_prgname("spore-editor");
   g_set_application_name("SPORE");
   g_autoptr(SporeApplication) application = spore_application_new(SPORE_VERSION, scenes_folder());

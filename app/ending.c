@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "core/io/file_batch.h"
@@ -46,6 +47,27 @@ static void end(const char *domain, GLogLevelFlags level, const char *message, g
 static void on_abort(int number) {
   spore_file_batches_withdraw();
   _exit(STATUS_FAULT);
+}
+
+#define AGAIN_US 20000
+
+/* A file that is being written is written to the end, and then taken back with all that do not stand yet. */
+static void on_signal(int number) {
+  static volatile sig_atomic_t asked;
+  static const struct itimerval again = {.it_value = {.tv_usec = AGAIN_US}};
+  if (number != SIGALRM) asked = number;
+  if (!spore_file_batches_end()) {
+    setitimer(ITIMER_REAL, &again, NULL);
+    return;
+  }
+  signal(asked, SIG_DFL);
+  raise(asked);
+}
+
+void spore_ending_on_signals(void) {
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGALRM};
+  const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) sigaction(signals[i], &action, NULL);
 }
 
 void spore_ending_prepare(void) {

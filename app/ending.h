@@ -8,5 +8,7 @@
 void spore_ending_prepare(void);
 /* The line is in the user's language from here on. Called after spore_catalogue_start. */
 void spore_ending_translate(void);
+/* SIGINT, SIGTERM and SIGHUP end the program as ever from here on, but withdraw files that are not whole. */
+void spore_ending_on_signals(void);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "ui/dialogs/spore-export-dialog.h"
 #include "ui/jobs/export-work.h"
+#include "ui/jobs/film-work.h"
 #include "ui/spore-window-private.h"
 
 static void exported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
@@ -15,18 +16,48 @@ static void exported(SporeJob *job, gpointer data, const GError *error, gpointer
   spore_export_report_show(GTK_WINDOW(self), report);
 }
 
+static void drawn(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  const SporeFilmWork *work = data;
+  if (spore_window_failed(self, error) || !work) return;
+  g_autofree char *report = spore_film_work_report(work);
+  spore_window_log(self, _("Exported %s"), work->file);
+  spore_export_report_show(GTK_WINDOW(self), report);
+}
+
+/* Pictures of moments that lie so far apart are shown as fast as in life. Takes the input. */
+static void draw_to(SporeWindow *self, const SporeExportFormat *format, const char *file, double time_s, double every_s,
+                    SporeTrack *input) {
+  g_autofree char *named = spore_film_file(format, file);
+  SporeFilmWork *work = spore_film_work_new(spore_editor_document_get(self->document), named, time_s, 1);
+  spore_film_work_add(work, input, NULL);
+  if (every_s > 0) work->fps = 1 / every_s;
+  if (format->moments != SPORE_EXPORT_SERIES || time_s > 0) {
+    spore_window_start_job(self, _("Exporting"), spore_film_work_run, work, spore_film_work_free, drawn);
+    return;
+  }
+  spore_film_work_free(work);
+  spore_window_complain(self, _("A film of no time shows nothing; set a simulated time of more than 0 s"));
+}
+
 static void export_to(SporeWindow *self, const SporeExportFormat *format, const char *file, double time_s,
                       double every_s, gboolean as_played) {
   SporeSession *session = as_played ? spore_player_get_session(self->player) : NULL;
   SporeTrack *input = session ? spore_session_recording(session) : NULL;
+  if (!format->write) {
+    draw_to(self, format, file, time_s, every_s, input);
+    return;
+  }
   SporeExportWork *work =
       spore_export_work_new(spore_editor_document_get(self->document), format, file, input, time_s, every_s);
   spore_window_start_job(self, _("Exporting"), spore_export_work_run, work, spore_export_work_free, exported);
 }
 
 static const SporeExportFormat *find_format(SporeWindow *self, const char *name) {
-  for (const SporeExportFormat *format = spore_export_formats; format->name; format++)
-    if (g_str_equal(format->name, name)) return format;
+  const SporeExportFormat *const tables[] = {spore_export_formats, spore_film_formats};
+  for (gsize i = 0; i < G_N_ELEMENTS(tables); i++)
+    for (const SporeExportFormat *format = tables[i]; format->name; format++)
+      if (g_str_equal(format->name, name)) return format;
   g_autofree char *said = g_strdup_printf(_("There is no format %s; choose one in the dialog of Export"), name);
   spore_window_complain(self, said);
   return NULL;

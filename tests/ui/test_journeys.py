@@ -1349,6 +1349,10 @@ def a_scene_is_exported():
         editor.press(editor.find("radio button", "^OBJ$"))
         ui.wait(lambda: not editor.look("spin button", "^Time between moments, s$"), "one moment alone")
         keep_picture(editor, "export")
+        editor.press(editor.find("radio button", "^Film$"))
+        editor.find("spin button", "^Time between moments, s$")
+        editor.press(editor.find("radio button", "^Picture$"))
+        ui.wait(lambda: not editor.look("spin button", "^Time between moments, s$"), "a picture to be of one moment")
         editor.press(inside(editor, "Export", "push button", "^Cancel$"))
         ui.wait(lambda: not editor.look("dialog", "^Export$"), "the dialog to close")
         editor.act("export", "(ssdd)", ("bundle", str(bundle), 0, 0))
@@ -1383,6 +1387,26 @@ def a_scene_is_exported():
         editor.keys("Return")
         editor.find("label", r"^Written\n.*played\.ply: \d", 60)
         keep_picture(editor, "played")
+
+
+@check
+def a_run_is_exported_as_pictures():
+    """a row of pictures is a format of Export; the report names it; a row of no time, and the end of the editor within a row, leave nothing."""
+    made = folder("drawn")
+    with start(SCENES / "minimal.spore") as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        ui.wait(lambda: editor.enabled("export"), "an export to be possible")
+
+        editor.act("export", "(ssdd)", ("png-row", str(made / "row.png"), 0.04, 0.02))
+        editor.find("label", r"^Written\n.*row-%05d\.png: 2 pictures of 1280 × 720, 0\.04 s$", 60)
+        editor.press(inside(editor, "Exported", "push button", "^Close$"))
+        editor.act("export", "(ssdd)", ("png-row", str(made / "never.png"), 0, 0.04))
+        ui.wait(lambda: "of no time" in (editor.message() or ""), "the refusal of a film without time")
+        editor.act("export", "(ssdd)", ("png-row", str(made / "never.png"), 1000, 0.04))
+        editor.find("label", "^Exporting: ")
+        ui.wait(lambda: list(made.glob(".spore-*.tmp")), "a picture that is not in its place yet", 60)
+    assert sorted(os.listdir(made)) == ["row-00000.png", "row-00001.png"], os.listdir(made)
+    assert len(picture_files.png(made / "row-00000.png")) == 720
 
 
 @check

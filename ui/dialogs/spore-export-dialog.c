@@ -3,6 +3,7 @@
 
 #include <glib/gi18n.h>
 
+#include "ui/jobs/film-work.h"
 #include "ui/panels/report.h"
 
 #define DOC_CHARS 72
@@ -53,22 +54,28 @@ static GtkWidget *label_of(const char *text, gboolean dim) {
   return label;
 }
 
-static GtkWidget *formats_new(Choice *choice) {
-  GtkWidget *box = gtk_grid_new();
-  GtkRadioButton *first = NULL;
-  gtk_grid_set_column_spacing(GTK_GRID(box), 12);
-  gtk_grid_set_row_spacing(GTK_GRID(box), 4);
-  for (int i = 0; spore_export_formats[i].name; i++) {
-    const SporeExportFormat *format = &spore_export_formats[i];
-    GtkWidget *button = gtk_radio_button_new_with_label_from_widget(first, _(format->label));
-    if (!first) first = GTK_RADIO_BUTTON(button);
+/* Adds a row for each format. *group: one of the buttons; NULL at first. */
+static void add_formats(Choice *choice, GtkContainer *rows, const SporeExportFormat *formats, GtkRadioButton **group) {
+  for (const SporeExportFormat *format = formats; format->name; format++) {
+    GtkWidget *button = gtk_radio_button_new_with_label_from_widget(*group, _(format->label));
+    GtkWidget *doc = label_of(_(format->doc), TRUE);
+    *group = GTK_RADIO_BUTTON(button);
     g_object_set_data(G_OBJECT(button), "spore-format", (gpointer)(guintptr)format);
     gtk_widget_set_valign(button, GTK_ALIGN_START);
     atk_object_set_description(gtk_widget_get_accessible(button), _(format->doc));
     g_signal_connect(button, "toggled", G_CALLBACK(format_chosen), choice);
-    gtk_grid_attach(GTK_GRID(box), button, 0, i, 1, 1);
-    gtk_grid_attach(GTK_GRID(box), label_of(_(format->doc), TRUE), 1, i, 1, 1);
+    gtk_grid_attach_next_to(GTK_GRID(rows), button, NULL, GTK_POS_BOTTOM, 1, 1);
+    gtk_grid_attach_next_to(GTK_GRID(rows), doc, button, GTK_POS_RIGHT, 1, 1);
   }
+}
+
+static GtkWidget *formats_new(Choice *choice) {
+  GtkWidget *box = gtk_grid_new();
+  GtkRadioButton *group = NULL;
+  gtk_grid_set_column_spacing(GTK_GRID(box), 12);
+  gtk_grid_set_row_spacing(GTK_GRID(box), 4);
+  add_formats(choice, GTK_CONTAINER(box), spore_export_formats, &group);
+  add_formats(choice, GTK_CONTAINER(box), spore_film_formats, &group);
   return box;
 }
 

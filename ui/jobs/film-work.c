@@ -1,6 +1,9 @@
 /* Repeats a run from what moved it, and films it. */
 #include "ui/jobs/film-work.h"
 
+#include <glib/gi18n.h>
+#include <string.h>
+
 #include "ui/document/attempts.h"
 #include "ui/jobs/under-way.h"
 #include "ui/jobs/work-place.h"
@@ -9,12 +12,41 @@
 #define HEIGHT 720
 #define FPS 30
 
+#define NUMBERED "-%05d" /* what makes a name that of a row of pictures */
+
+const SporeExportFormat spore_film_formats[] = {
+    {.name = "webm",
+     .moments = SPORE_EXPORT_SERIES,
+     .suffix = ".webm",
+     .label = N_("Film"),
+     .doc = N_("the run as a film in WebM, seen through the scene's camera, as fast as in life")},
+    {.name = "png-row",
+     .moments = SPORE_EXPORT_SERIES,
+     .suffix = ".png",
+     .label = N_("Row of pictures"),
+     .doc = N_("the run as numbered pictures in PNG, for a program that cuts films")},
+    {.name = "png",
+     .moments = SPORE_EXPORT_ONE_MOMENT,
+     .suffix = ".png",
+     .label = N_("Picture"),
+     .doc = N_("one moment of the run in PNG, seen through the scene's camera")},
+    {.name = NULL},
+};
+
+char *spore_film_file(const SporeExportFormat *format, const char *file) {
+  SporeReelKind kind;
+  if (!g_str_equal(format->name, "png-row") || !spore_reel_kind(file, &kind, NULL) || kind != SPORE_REEL_PICTURE)
+    return g_strdup(file);
+  g_autofree char *stem = g_strndup(file, strlen(file) - strlen(format->suffix));
+  return g_strconcat(stem, NUMBERED, format->suffix, NULL);
+}
+
 SporeFilmWork *spore_film_work_new(const SporeDocument *document, const char *file, double end_s, double speed) {
   SporeFilmWork *work = g_new0(SporeFilmWork, 1);
   spore_work_begin();
   work->document = spore_document_copy(document);
   work->file = g_strdup(file);
-  work->end_s = end_s, work->speed = speed;
+  work->end_s = end_s, work->speed = speed, work->fps = FPS;
   return work;
 }
 
@@ -46,7 +78,7 @@ gboolean spore_film_work_run(gpointer data, const SporeProgress *progress, GErro
                           .width = WIDTH,
                           .height = HEIGHT,
                           .to_s = work->end_s,
-                          .fps = FPS,
+                          .fps = work->fps,
                           .speed = work->speed,
                           .shown = {.surfaces = TRUE},
                           .cancel = &place.cancel};
@@ -66,4 +98,14 @@ void spore_film_work_free(gpointer data) {
   g_free(work->file);
   g_free(work);
   spore_work_end();
+}
+
+char *spore_film_work_report(const SporeFilmWork *work) {
+  const SporeFilmed *filmed = &work->filmed;
+  g_autofree char *size = g_strdup_printf("%d × %d", filmed->width, filmed->height);
+  g_autofree char *line = filmed->length_s > 0
+                              ? g_strdup_printf(_("%s: %llu pictures of %s, %.2f s"), work->file,
+                                                (unsigned long long)filmed->pictures, size, filmed->length_s)
+                              : g_strdup_printf(_("%s: a picture of %s"), work->file, size);
+  return g_markup_printf_escaped("<b>%s</b>\n%s", _("Written"), line);
 }
