@@ -112,6 +112,8 @@ typedef struct SporeModel {
   size_t pair_room;          /* largest number of pairs of blocks in its pattern then, repeated pairs counted */
   double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the block of a frame's angular velocity */
   double buoyancy;           /* part of its weight that the air around it carries; above 1 it rises */
+  double stain;              /* 1/s, of a fluid: rate at which what its drops lie on takes on their colour; below 0: at
+                                which they wash such colour off */
   double life_s; /* s, of particles: older ones are taken out of the world; the age of each particle, s, lies behind the
                     nodes in q; 0: they last for ever */
   bool tears;    /* the world calls tear after each step */

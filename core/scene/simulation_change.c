@@ -24,8 +24,17 @@ static void carry_level(SporeWorld *to, guint32 body, const SporeWorld *from, gu
   spore_world_set_lod(to, body, state.level);
 }
 
+/* Before the states, with which they are shown. */
+static void carry_stains(SporeWorld *to, const SporeWorld *from) {
+  for (guint32 i = 0; i < spore_world_body_count(to); i++) {
+    guint32 old = spore_world_find_body(from, spore_world_body_name(to, i));
+    if (old != SPORE_NO_BODY) spore_world_carry_stain(to, i, from, old);
+  }
+}
+
 void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from) {
   size_t count = spore_world_body_count(to->world);
+  carry_stains(to->world, from->world);
   for (guint32 i = 0; i < count; i++) {
     SporeRole role = spore_world_body_role(to->world, i);
     guint32 old = spore_world_find_body(from->world, spore_world_body_name(to->world, i));

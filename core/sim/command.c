@@ -45,6 +45,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
   spore_body_forget_steps(world, body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_set_mass(world, body);
+  world->schedule.stale = true; /* a fluid may stain from now on */
 }
 
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {

@@ -72,6 +72,12 @@ static size_t all_spheres(const SporeWorld *world) { return world->contact.spher
 static size_t moving_spheres(const SporeWorld *world) {
   return world->contact.spheres.count - world->contact.spheres.static_count;
 }
+static size_t drops(const SporeWorld *world) {
+  size_t count = 0;
+  for (size_t b = 0; b < world->body_count; b++)
+    if (spore_body_is_fluid(&world->bodies[b])) count += world->bodies[b].block_count;
+  return count;
+}
 static size_t contacts(const SporeWorld *world) { return world->contact.count; }
 static size_t links(const SporeWorld *world) {
   return world->links.count + world->links.trocar_count + world->links.pull_count;
@@ -154,6 +160,8 @@ static const SporeStageType stages[] = {
      N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.1, 0.012},
     {"detect", may_touch, spore_world_detect, all_spheres, /**/
      N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.3, 0.004},
+    {"stain", spore_world_may_stain, spore_world_stain, drops, /**/
+     N_("what drops lie on takes on their colour"), N_("no fluid stains or washes what it touches"), 0.05, 0.002},
     {"wake", may_sleep, spore_world_wake_touched, sleeping_bodies, /**/
      N_("bodies at rest sleep until something that moves touches them"),
      N_("bodies never sleep: sleep_speed is 0, or none moves by physics"), 0.05, 0},

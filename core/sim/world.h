@@ -167,6 +167,16 @@ const SporeSpheres *spore_world_spheres(const SporeWorld *world);
 bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride);
 /* Number of the body's collision spheres. */
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
+/* Places on a body's spheres that a fluid may stain. */
+typedef struct SporeStainPlaces {
+  size_t start, count; /* in the stains of snapshots */
+  const double *rest;  /* count x 3, body's frame at rest, m; owned by the world, and never changed */
+} SporeStainPlaces;
+SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body);
+/* Mean stain of these places now, 0..1. A stain is seen and changes nothing else: state and hashes are without it. */
+double spore_world_stained(const SporeWorld *world, uint32_t body);
+/* Gives a body of `to` the stain that body `old` of `from` has, where the places are the same. */
+void spore_world_carry_stain(SporeWorld *to, uint32_t body, const SporeWorld *from, uint32_t old);
 /* Whether spheres of the body collide with each other, as its contact law says now. */
 bool spore_world_body_meets_itself(const SporeWorld *world, uint32_t body);
 /* Number of velocity components that physics moves. */
@@ -535,6 +545,9 @@ typedef struct SporeSnapshot {
   SporeToolCounts tools;
   SporeEnergy energy; /* of this state, or of an earlier one: it is computed for the first step after a reader acquired
                          a snapshot */
+  uint64_t stained;   /* changes whenever a stain changes; 0: nothing was ever stained */
+  size_t stain_count;
+  float *stain; /* stain_count, 0..1: how much of a fluid's colour each place has, see spore_world_stain_places */
   uint64_t message_count; /* as in SporeMonitor */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
   double step_us; /* time that the step took, us of the clock */

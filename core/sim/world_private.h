@@ -6,6 +6,7 @@
 #include "core/haptic/guard.h"
 #include "core/sim/contact/contact.h"
 #include "core/sim/effect/effect.h"
+#include "core/sim/effect/stain.h"
 #include "core/sim/link/link.h"
 #include "core/sim/lod/lod.h"
 #include "core/sim/solve/solve.h"
@@ -75,6 +76,7 @@ struct SporeWorld {
   SporeLinkSystem links;
   SporeTopology topology;
   SporeToolSystem tools;
+  SporeStains stains;
 };
 
 /* Whether physics moves the body; `body` may be SPORE_NO_BODY. */

@@ -49,7 +49,7 @@ SporeLennardJonesLaw spore_lennard_jones_law(double sigma, double epsilon, doubl
 
 typedef struct FluidFields {
   int64_t particles;
-  double density, surface_tension, temperature, thermostat, drag;
+  double density, surface_tension, temperature, thermostat, drag, stain;
   double period[3];
 } FluidFields;
 
@@ -90,6 +90,10 @@ static const SporeParameter parameters[] = {
                      N_("Rate at which the particles come back to that temperature, while their flow is not slowed. 0: "
                         "what is stirred grows hot and boils, what touches damped bodies sets.")),
     SPORE_REAL_FIELD(FluidFields, drag, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE, N_("Rate at which motion dies away.")),
+    SPORE_REAL_FIELD(
+        FluidFields, stain, "1/s", -1e3, 1e3, 12, SPORE_CHANGE_LIVE,
+        N_("Rate at which what drops lie on takes on the colour of blood, which is seen and changes nothing "
+           "else. Below 0: at which they wash that colour off, as water does. 0: neither.")),
     {.name = "period",
      .type = SPORE_VECTOR,
      .unit = "m",
@@ -180,6 +184,7 @@ static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields
   fluid->epsilon = fields->surface_tension * fluid->sigma * fluid->sigma / LIQUID_TENSION;
   fluid->thermostat = fields->thermostat;
   fluid->drag = fields->drag;
+  fluid->base.stain = fields->stain;
   fluid->warmth = fields->temperature * fluid->epsilon / mass;
   memcpy(fluid->period, fields->period, sizeof fluid->period);
   fluid->law = spore_lennard_jones_law(fluid->sigma, fluid->epsilon, CUTOFF * fluid->sigma, CORE * fluid->sigma);
@@ -286,6 +291,7 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   Fluid *fluid = (Fluid *)model;
   fluid->thermostat = ((const FluidFields *)fields)->thermostat;
   fluid->drag = ((const FluidFields *)fields)->drag;
+  model->stain = ((const FluidFields *)fields)->stain;
   return true;
 }
 

@@ -3,7 +3,7 @@ in vec3 v_position;
 void main() {}
 #else
 in vec3 v_position, v_normal, v_rest;
-in float v_mottle, v_value;
+in float v_mottle, v_value, v_stain;
 
 uniform vec3 colour;
 uniform float wetness;
@@ -35,6 +35,12 @@ bool is_reached(vec3 place) {
   return false;
 }
 
+// What is wet with blood is dark red and shines; unevenly at its edge.
+const vec3 blood_colour = vec3(0.24, 0.006, 0.006);
+float soaked(float unevenness) {
+  return smoothstep(0.04, 0.8, v_stain * (1.25 + unevenness));
+}
+
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
@@ -47,6 +53,8 @@ void main() {
     vec3 across = v_rest - axis * dot(v_rest, axis);
     vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
     outcome = shade_metal(colour, v_position, normal, mat3(rotation) * streak, open, lit);
+    if (v_stain > 0.0)
+      outcome = mix(outcome, shade_tissue(blood_colour, 1.0, v_position, normal, normal, open, lit), 0.9 * soaked(v_mottle - 0.5));
   } else {
     // Blood shows through unevenly: pale and dark patches, and a fine grain.
     vec4 grain = noise(v_rest * 2.7);
@@ -64,10 +72,12 @@ void main() {
 #else
     vec3 bump = grain.yzw * 0.11 * detail(2.7);
 #endif
-    bump = mat3(rotation) * bump;
+    float wet = soaked(1.4 * (v_mottle - 0.5) + 1.2 * (grain.x - 0.5));
+    albedo = mix(albedo, blood_colour, 0.9 * wet);
+    bump = mat3(rotation) * bump * (1.0 - 0.3 * wet);
     bump -= normal * dot(normal, bump);
     if (tint.w > 0.0 && !is_reached(v_position)) albedo = mix(albedo, tint.rgb, 0.75);
-    outcome = shade_tissue(max(albedo, 0.0), wetness, v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
+    outcome = shade_tissue(max(albedo, 0.0), mix(wetness, max(wetness, 0.7), wet), v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
   }
   // Behind a cut, the inside is told from the outside.
   if (!gl_FrontFacing && dot(clip_plane.xyz, clip_plane.xyz) > 0.0) outcome *= 0.6;

@@ -2,13 +2,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest; // xyz: place at rest in pattern cells, so that the pattern sticks; w: slow mottling 0..1
 layout(location = 3) in float value; // of the scale of colours, 0..1; below 0: tissue
+layout(location = 4) in float stain; // 0..1: how much blood covers it
 
 uniform vec3 offset; // of the mesh's origin from the eye, world axes
 
 out vec3 v_position;
 #if !DEPTH_ONLY
 out vec3 v_normal, v_rest;
-out float v_mottle, v_value;
+out float v_mottle, v_value, v_stain;
 #endif
 
 void main() {
@@ -24,5 +25,6 @@ void main() {
   v_rest = rest.xyz;
   v_mottle = rest.w;
   v_value = value;
+  v_stain = stain;
 #endif
 }

@@ -8,7 +8,7 @@
 
 typedef struct FluidFields { /* as the model's own */
   int64_t particles;
-  double density, surface_tension, temperature, thermostat, drag;
+  double density, surface_tension, temperature, thermostat, drag, stain;
   double period[3];
 } FluidFields;
 

@@ -239,6 +239,50 @@ static void test_sphere_scale(void) {
   setting_close(&setting);
 }
 
+/* A picture of the bowl in which every place is stained so much; the blood itself is hidden. */
+static Picture draw_stained(Setting *setting, float stain, guint64 number) {
+  SporeSnapshot snapshot = *spore_world_snapshot_acquire(setting->simulation->world);
+  SporeCamera camera;
+  g_autofree float *amount = g_new(float, snapshot.stain_count);
+  for (gsize i = 0; i < snapshot.stain_count; i++) amount[i] = stain;
+  snapshot.stain = amount;
+  snapshot.stained = number;
+  spore_stage_update(setting->stage, &snapshot);
+  g_assert_true(spore_stage_camera(setting->stage, "view", 4.0 / 3, &camera, NULL));
+  return draw_picture(setting->bench.renderer, &camera, 160, 120, FALSE, FALSE);
+}
+
+/* Green and blue, and red, of the middle of the picture, where the bowl is. */
+static void middle_of(Picture *picture, int *cool, int *red) {
+  *cool = *red = 0;
+  for (int x = 60; x < 100; x += 5)
+    for (int y = 45; y < 75; y += 5) {
+      int rgb[3];
+      picture_pixel(picture, x, y, rgb);
+      *red += rgb[0], *cool += rgb[1] + rgb[2];
+    }
+  picture_clear(picture);
+}
+
+/* What is stained is darker, and redder; what is washed is as it was. */
+static void test_stains_are_seen(void) {
+  Setting setting = setting_open(SPORE_SCENES "/exercise-suction.spore");
+  g_autoptr(GHashTable) hidden = g_hash_table_new(NULL, NULL);
+  g_hash_table_add(hidden, GUINT_TO_POINTER(id_of(&setting, "blood")));
+  setting_run(&setting, 0);
+  spore_stage_set_hidden(setting.stage, hidden);
+  int cool[3], red[3];
+  for (guint i = 0; i < 3; i++) {
+    Picture picture = draw_stained(&setting, i == 1, i + 1);
+    middle_of(&picture, &cool[i], &red[i]);
+  }
+  g_test_message("red %d clean, %d stained; green and blue %d, %d", red[0], red[1], cool[0], cool[1]);
+  g_assert_cmpint(red[1], <, 9 * red[0] / 10);
+  g_assert_cmpint(cool[1] * red[0], <, cool[0] * red[1] * 3 / 4);
+  g_assert_true(red[2] == red[0] && cool[2] == cool[0]);
+  setting_close(&setting);
+}
+
 /* The ball filled with a fluid whose collision unit names no spheres. */
 static void test_own_spheres(void) {
   Setting setting = setting_open(MINIMAL);
@@ -507,6 +551,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/overlays", test_overlays);
   g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
+  g_test_add_func("/render/stage/stains-are-seen", test_stains_are_seen);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);

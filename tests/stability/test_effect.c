@@ -380,6 +380,96 @@ static void test_drops_there_and_back(void) {
 }
 
 /* In its middle a dent is its push; far off it falls as the third power. */
+/* Blood, poured or as particles, over a floor: its mean stain, and that of the part under the blood. */
+typedef struct Stained {
+  double mean, under, beside;
+  uint64_t hash; /* of the world's state */
+} Stained;
+
+static Stained stained_floor(const char *rate_name, double rate, double h, bool effect, unsigned steps) {
+  Rig *rig = rig_new();
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0.01, 0), spore_vec3(0.008, 0.008, 0.008));
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.time_step = h;
+  SporeModel *model = rig_fluid_model(&cube, 60, rate_name, rate, "temperature", 0.7, "thermostat", 200., NULL);
+  rig_passive(rig, "blood", model, own_spheres(rig, model))->effect = effect;
+  rig_unmovable(rig, "floor", rig_floor(rig, 48, 48, 0.002, 0.002))->contact =
+      (SporeContactFields){.stiffness = 60, .damping = 0.02, .friction = 1};
+  g_array_index(rig->bodies, SporeBodyDescription, 0).contact =
+      (SporeContactFields){.stiffness = 60, .damping = 0.02, .friction = 1};
+  SporeWorld *world = rig_build(rig);
+  g_assert_cmpfloat(spore_world_stained(world, 1), ==, 0);
+  rig_run(world, steps);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+  SporeStainPlaces places = spore_world_stain_places(world, 1);
+  Stained found = {.mean = spore_world_stained(world, 1), .hash = spore_world_hash(world)};
+  for (size_t i = 0; i < places.count; i++) {
+    const double *at = places.rest + 3 * i;
+    double far = hypot(at[0], at[2]), stain = (double)snapshot->stain[places.start + i];
+    g_assert_true(stain >= 0 && stain <= 1);
+    if (far < 0.004) found.under = fmax(found.under, stain);
+    if (far > 0.04) found.beside = fmax(found.beside, stain);
+  }
+  spore_world_reset(world);
+  snapshot = spore_world_snapshot_acquire(world);
+  g_assert_cmpfloat(spore_world_stained(world, 1), ==, 0);
+  for (size_t i = 0; i < snapshot->stain_count; i++) g_assert_cmpfloat((double)snapshot->stain[i], ==, 0);
+  rig_free(rig);
+  return found;
+}
+
+/* Blood stains what it lies on, as an effect and as particles, and nothing else; the motion is the same to the bit. */
+static void test_blood_stains(void) {
+  static const struct {
+    double h;
+    unsigned steps;
+    bool effect;
+  } cases[] = {{4e-3, 100, true}, {5e-4, 800, true}, {2e-4, 1000, false}};
+  for (unsigned c = 0; c < G_N_ELEMENTS(cases); c++) {
+    Stained red = stained_floor("stain", 10, cases[c].h, cases[c].effect, cases[c].steps);
+    Stained clear = stained_floor("stain", 0, cases[c].h, cases[c].effect, cases[c].steps);
+    g_test_message("%s, steps of %g s: %.2f under the blood, %.2f beside it", cases[c].effect ? "effect" : "physics",
+                   cases[c].h, red.under, red.beside);
+    g_assert_cmpfloat(red.under, >, 0.15);
+    g_assert_cmpfloat(red.beside, ==, 0);
+    g_assert_cmpfloat(clear.mean, ==, 0);
+    g_assert_cmphex(red.hash, ==, clear.hash);
+  }
+}
+
+/* Water over a stained floor. */
+static void add_water(Rig *rig) {
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0.02, 0), spore_vec3(CUBE, CUBE, CUBE));
+  SporeModel *model = rig_fluid_model(&cube, DROPS, "stain", -20., NULL);
+  SporeBodyDescription *water = rig_passive(rig, "water", model, own_spheres(rig, model));
+  water->effect = true;
+  water->pose.position = spore_vec3(0, 0.4, 0); /* falls for .28 s */
+}
+
+/* What washes takes the stain off, where the blood has gone. */
+static void test_water_washes(void) {
+  double left[2];
+  for (int washed = 0; washed < 2; washed++) {
+    Rig *rig = pour(4e-3, washed ? add_water : NULL);
+    SporeWorld *world = rig_build(rig);
+    rig_run(world, 50);
+    double before = spore_world_stained(world, 1);
+    size_t count = 3 * spore_world_body_model(world, 0)->node_count;
+    g_autofree double *q = g_memdup2(spore_world_q(world, 0), count * sizeof *q), *v = g_new0(double, count);
+    for (size_t i = 0; i < count; i++) q[i] += 1;
+    spore_world_set_state(world, 0, q, v);
+    g_assert_cmpfloat(before, >, 2e-3);
+    rig_run(world, 100);
+    left[washed] = spore_world_stained(world, 1) / before;
+    rig_free(rig);
+  }
+  g_test_message("%.2f of the stain is left without water, %.2f with", left[0], left[1]);
+  g_assert_cmpfloat(left[0], ==, 1);
+  g_assert_cmpfloat(left[1], <, 0.6);
+}
+
 static void test_dent(void) {
   const SporeDent dent = {{0, 0, 0}, {0, -1e-3, 0}, 2e-3};
   SporeVec3 middle = spore_dents_at(&dent, 1, dent.at);
@@ -402,6 +492,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/drops-push-nothing", test_drops_push_nothing);
   g_test_add_func("/stability/effect/drops-slip", test_drops_slip);
   g_test_add_func("/stability/effect/drops-there-and-back", test_drops_there_and_back);
+  g_test_add_func("/stability/effect/blood-stains", test_blood_stains);
+  g_test_add_func("/stability/effect/water-washes", test_water_washes);
   g_test_add_func("/stability/effect/dent", test_dent);
   return g_test_run();
 }

@@ -78,7 +78,7 @@ typedef struct SporeDrawable {
 
 typedef struct SporeSurfaceGroup {
   SporeDrawable base;
-  GLuint vertex_array, moving, rest, values, indices; /* values 0: has none */
+  GLuint vertex_array, moving, rest, values, stain, indices; /* values, stain: 0: has none */
   gsize vertex_count, triangle_count;
   guint32 *triangles; /* triangle_count x 3 */
   double *normals;    /* vertex_count x 3 */
@@ -116,6 +116,7 @@ typedef struct SporeLineGroup {
 /* The context must be current for all functions below. */
 SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
                                      gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
+void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);

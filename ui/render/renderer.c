@@ -107,6 +107,11 @@ void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const d
   if (drawable) spore_surface_move(drawable, vertices);
 }
 
+void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain) {
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  if (drawable) spore_surface_stain(drawable, stain);
+}
+
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style) {
   SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   if (drawable) drawable->style = *style;

@@ -37,6 +37,8 @@ guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices
 guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                         const guint32 *triangles, gsize triangle_count, const float *values);
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
+/* stain: one a vertex, 0..1: how much blood covers it; none at first. */
+void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain);
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style);
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
 guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],

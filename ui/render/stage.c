@@ -103,6 +103,8 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     spore_stage_body_place(stage, body);
   }
   show_cuts(stage, snapshot);
+  for (guint i = 0; snapshot->stain && i < stage->bodies->len; i++)
+    spore_stage_body_stain(stage, stage->bodies->pdata[i], snapshot);
   if (stage->marks_handle) spore_renderer_set_visible(stage->renderer, stage->marks_handle, snapshot->step == 0);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
 }

@@ -133,6 +133,7 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
   }
   body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
                                                     body->triangle_count, &body->style);
+  if (simulation && body->world_body != SPORE_NO_BODY) spore_stage_body_keep_stain(body, simulation->world, vertices);
 }
 
 /* Puffs instead of a surface and spheres. */
@@ -311,6 +312,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
                            body->inside_handle};
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
+  spore_stage_body_free_stain(body);
   spore_free(body->surface_places);
   spore_free(body->centre_places);
   if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);

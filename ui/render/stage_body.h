@@ -11,6 +11,9 @@ typedef struct SporeStagePoints {
   double *positions; /* count x 3, world, m */
 } SporeStagePoints;
 
+/* How blood is seen on a surface: stage_stain.c. */
+typedef struct SporeStageStain SporeStageStain;
+
 typedef struct SporeStageBody {
   guint32 object;     /* id */
   guint32 world_body; /* SPORE_NO_BODY: not simulated */
@@ -36,6 +39,8 @@ typedef struct SporeStageBody {
   uint32_t *surface_places, *centre_places;
   guint inside_handle;  /* of the faces that were inside */
   guint surface_handle; /* handles: 0 is none */
+
+  SporeStageStain *stain; /* of the surface; NULL: the body cannot be stained */
 
   SporeStagePoints axis; /* of the tube that is the surface */
   SporeCurve tube;       /* the axis as it is shown, with its radii; without points: there is none */
@@ -108,6 +113,14 @@ void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, cons
 /* Makes what is drawn follow the divided tetrahedra, and draws the faces that were inside. Positions are set by place.
  * */
 void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
+/* Gets the surface ready for stains. vertices: of the surface at rest, borrowed. */
+void spore_stage_body_keep_stain(SporeStageBody *body, const SporeWorld *world, const double *vertices);
+/* Shows the stains of the snapshot on the surface. */
+void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const SporeSnapshot *snapshot);
+/* The surface is another one: it is stained anew. twins: the vertex of the surface at the start that each of its
+ * vertices was made from; NULL: the vertices stay. Copied. */
+void spore_stage_body_stain_anew(SporeStageBody *body, const guint32 *twins);
+void spore_stage_body_free_stain(SporeStageBody *body);
 /* Removes the triangles that the cuts of the snapshot go through. */
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 

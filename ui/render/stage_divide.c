@@ -17,6 +17,7 @@ typedef struct Draft {
   const uint32_t *corners;
   gsize count;
   uint32_t *blocks, *triangles;
+  uint32_t *twins; /* of each vertex, that of the whole surface */
   double *weights;
 } Draft;
 
@@ -29,7 +30,7 @@ static void add_whole_row(Draft *draft, gsize vertex) {
         places[k] == UINT32_MAX ? whole->block[k] : draft->corners[places[k]];
     draft->weights[WIDTH * draft->count + filled] = whole->weight[k];
   }
-  draft->count++;
+  draft->twins[draft->count++] = (uint32_t)vertex;
 }
 
 /* Adds a row with the barycentric coordinates of the vertex in the tetrahedron. */
@@ -47,7 +48,7 @@ static void add_row(Draft *draft, gsize vertex, uint32_t tetrahedron) {
     draft->blocks[WIDTH * draft->count + k] = draft->corners[4 * (gsize)tetrahedron + k];
     draft->weights[WIDTH * draft->count + k] = share;
   }
-  draft->count++;
+  draft->twins[draft->count++] = (uint32_t)vertex;
 }
 
 /* The tetrahedron that moves a vertex; UINT32_MAX: none. */
@@ -99,6 +100,7 @@ static void show_draft(SporeStage *stage, SporeStageBody *body, Draft *draft) {
   mesh.triangles = draft->triangles;
   draft->triangles = NULL;
   spore_stage_body_show_surface(stage, body, &mesh);
+  spore_stage_body_stain_anew(body, draft->twins);
   g_free(mesh.vertices);
 }
 
@@ -118,6 +120,7 @@ static void divide_surface(SporeStage *stage, SporeStageBody *body, const uint32
   Draft draft = {.body = body, .corners = corners};
   draft.blocks = g_new0(uint32_t, WIDTH * most);
   draft.weights = g_new0(double, WIDTH *most);
+  draft.twins = g_new(uint32_t, most);
   draft.triangles = SPORE_NEW_ARRAY(uint32_t, 3 * body->whole_count);
   if (draft.triangles) {
     for (gsize i = 0; i < body->whole_surface.point_count; i++) add_whole_row(&draft, i);
@@ -127,6 +130,7 @@ static void divide_surface(SporeStage *stage, SporeStageBody *body, const uint32
   spore_free(draft.triangles);
   g_free(draft.blocks);
   g_free(draft.weights);
+  g_free(draft.twins);
 }
 
 /* Faces that were inside. */
@@ -191,7 +195,8 @@ static void show_inside(SporeStage *stage, SporeStageBody *body, const uint32_t 
 }
 
 /* Shows the outer faces where the surface is the boundary of the tetrahedra. */
-static void show_outside(SporeStage *stage, SporeStageBody *body, const uint32_t *faces, gsize count) {
+static void show_outside(SporeStage *stage, SporeStageBody *body, const uint32_t *corners, const uint32_t *faces,
+                         gsize count) {
   SporeTriangleMesh mesh = {.vertex_count = body->q_count / 3, .triangle_count = count, .vertices = body->q};
   if (!body->surface_handle || body->surface.mapping.kind != SPORE_MAPPING_IDENTITY || body->rest) return;
   mesh.triangles = SPORE_NEW_ARRAY(uint32_t, 3 * count);
@@ -199,6 +204,8 @@ static void show_outside(SporeStage *stage, SporeStageBody *body, const uint32_t
   memcpy(mesh.triangles, faces, 3 * count * sizeof *faces);
   body->surface.mapping.point_count = mesh.vertex_count;
   spore_stage_body_show_surface(stage, body, &mesh);
+  g_autofree uint32_t *whole_of = find_whole(body, corners);
+  spore_stage_body_stain_anew(body, whole_of);
 }
 
 static void divide_faces(SporeStage *stage, SporeStageBody *body, const uint32_t *corners) {
@@ -208,7 +215,7 @@ static void divide_faces(SporeStage *stage, SporeStageBody *body, const uint32_t
   now.tetrahedra = g_memdup2(corners, 4 * now.tetrahedron_count * sizeof *corners);
   if (spore_tetrahedral_mesh_boundary(&now, &faces, &count)) {
     gsize outer = sort_faces(body, corners, faces, count);
-    show_outside(stage, body, faces, outer);
+    show_outside(stage, body, corners, faces, outer);
     show_inside(stage, body, faces + 3 * outer, count - outer);
   }
   g_free(now.tetrahedra);

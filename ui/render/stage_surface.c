@@ -42,6 +42,7 @@ void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCu
   spore_renderer_remove(stage->renderer, body->surface_handle);
   body->surface_handle = spore_renderer_add_surface(stage->renderer, body->surface.positions, body->surface.count, left,
                                                     count, &body->style);
+  spore_stage_body_stain_anew(body, NULL);
   spore_renderer_set_visible(stage->renderer, body->surface_handle,
                              stage->options.surfaces && spore_stage_shows(stage, body->object));
 }

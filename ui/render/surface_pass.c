@@ -159,6 +159,18 @@ void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
   glUnmapBuffer(GL_ARRAY_BUFFER);
 }
 
+void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain) {
+  gboolean first = surface->stain == 0;
+  if (first) glGenBuffers(1, &surface->stain);
+  glBindBuffer(GL_ARRAY_BUFFER, surface->stain);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->vertex_count * sizeof *stain), stain, GL_DYNAMIC_DRAW);
+  if (!first) return;
+  glBindVertexArray(surface->vertex_array);
+  glEnableVertexAttribArray(4);
+  glVertexAttribPointer(4, 1, GL_FLOAT, GL_FALSE, 0, NULL);
+  glBindVertexArray(0);
+}
+
 static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *frame, const SporeProgram *program,
                          gboolean colours) {
   const SporeSurfaceStyle *style = &surface->style;
@@ -174,6 +186,7 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   glPolygonMode(GL_FRONT_AND_BACK, style->wireframe && colours ? GL_LINE : GL_FILL);
   glBindVertexArray(surface->vertex_array);
   if (!surface->values) glVertexAttrib1f(3, -1);
+  if (!surface->stain) glVertexAttrib1f(4, 0);
   glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
 }
 

@@ -34,6 +34,9 @@ static bool init_buffer(SporeWorld *world, int index) {
   if (world->has_lod) snapshot->level = SPORE_NEW_ARRAY(uint8_t, world->body_count);
   if (world->has_lod && !snapshot->level) return false;
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
+  snapshot->stain_count = world->stains.count;
+  if (world->stains.count > 0) snapshot->stain = SPORE_NEW_ARRAY(float, world->stains.count);
+  if (world->stains.count > 0 && !snapshot->stain) return false;
   snapshot->cuts.capacity = world->topology.cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->topology.cuts.capacity);
   snapshot->cuts.corner_count = world->topology.cuts.corner_count;
@@ -67,6 +70,7 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].level);
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
+    spore_free(snapshots->buffers[i].stain);
     spore_free(snapshots->buffers[i].cuts.edges);
     spore_free(snapshots->buffers[i].cuts.corners);
     spore_free(snapshots->buffers[i].lines.breaks);
@@ -128,6 +132,14 @@ static void copy_lines(const SporeWorld *world, SporeSnapshot *snapshot) {
   lines->number = world->topology.lines.number;
   memcpy(lines->breaks, world->topology.lines.breaks, lines->break_count * sizeof *lines->breaks);
   memcpy(lines->span_count, world->topology.lines.span_count, world->body_count * sizeof *lines->span_count);
+}
+
+/* Copies the stains where they have changed. */
+static void copy_stains(const SporeWorld *world, SporeSnapshot *snapshot) {
+  assert(snapshot->stain_count == world->stains.count);
+  if (snapshot->stained == world->stains.number) return;
+  snapshot->stained = world->stains.number;
+  memcpy(snapshot->stain, world->stains.amount, snapshot->stain_count * sizeof *snapshot->stain);
 }
 
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) {
@@ -200,6 +212,7 @@ void spore_world_publish(SporeWorld *world) {
   copy_messages(world, snapshot);
   copy_cuts(world, snapshot);
   copy_lines(world, snapshot);
+  copy_stains(world, snapshot);
   snapshot->step_us = world->schedule.step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);
