@@ -185,9 +185,9 @@ TABLE(static, body, SporeBodyDescription, BODY)
   X(T, strength, REAL)                                                                                                 \
   X(T, friction, REAL)                                                                                                 \
   X(T, ends, CHOICE, .least = SPORE_ENDS_STOP, .most = SPORE_ENDS_SLIP_OFF)                                            \
-  X(T, reach_angle, SKIPPED)                                                                                           \
-  X(T, reach_least, SKIPPED)                                                                                           \
-  X(T, reach_most, SKIPPED)                                                                                            \
+  X(T, reach_angle, REAL)                                                                                              \
+  X(T, reach_least, REAL)                                                                                              \
+  X(T, reach_most, REAL)                                                                                               \
   X(T, body_a_name, TEXT)                                                                                              \
   X(T, body_b_name, TEXT)
 TABLE(static, link, SporeLinkDescription, LINK)
