@@ -86,14 +86,14 @@ static void test_follows_the_simulation(void) {
   setting_close(&setting);
 }
 
-/* What a plane hides is not picked: of the ball, the inside is; of a sphere, too. */
+/* What a plane hides is not picked: of the ball, which is closed, the face of the cut is; of a sphere, its inside. */
 static void test_picked_behind_a_plane(void) {
   Setting setting = setting_open(MINIMAL);
   SporeVec3 point = {0};
   const SporeClip half = {{0, 1, 0}, 0.06}, all = {{0, 1, 0}, -1};
   spore_stage_set_clip(setting.stage, &half);
   g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
-  g_assert_cmpfloat_with_epsilon(point.y, 0.04, 1e-4);
+  g_assert_cmpfloat_with_epsilon(point.y, 0.06, 1e-9);
   spore_stage_set_clip(setting.stage, &all);
   g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, 0);
   GError *error = NULL;
@@ -107,6 +107,33 @@ static void test_picked_behind_a_plane(void) {
   g_assert_cmpfloat(point.y, <, -0.001);
   spore_stage_set_clip(setting.stage, &all);
   g_assert_cmpuint(pick_down(&setting, 0.03, 0.03, &point), ==, 0);
+  setting_close(&setting);
+}
+
+/* A place on the face of a cut goes with the body, as deep in it as it was picked. From the side that the plane leaves,
+ * the surface is picked. */
+static void test_held_within(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeVec3 point = {0}, now = {0};
+  SporeStageHold hold;
+  const SporeClip half = {{0, 1, 0}, 0.063};
+  const SporeVec3 above = {0.004, 1, 0.003}, down = {0, -1, 0};
+  setting_run(&setting, 0);
+  spore_stage_set_clip(setting.stage, &half);
+  g_assert_cmpuint(spore_stage_pick_hold(setting.stage, above, down, &point, &hold), ==, id_of(&setting, "ball"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0.063, 1e-9);
+  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
+  for (int i = 0; i < 60; i++) spore_world_step(setting.simulation->world);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting.simulation->world);
+  spore_stage_update(setting.stage, snapshot);
+  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
+  g_assert_cmpfloat_with_epsilon(now.x, point.x, 1e-9);
+  g_assert_cmpfloat_with_epsilon(now.y, point.y - 0.5 * 9.81 * snapshot->time_s * snapshot->time_s, 4e-4);
+  const SporeVec3 below = {0.004, 0.02, 0.003}, up = {0, 1, 0};
+  g_assert_cmpuint(spore_stage_pick_hold(setting.stage, below, up, &point, &hold), ==, id_of(&setting, "ball"));
+  g_assert_cmpfloat(point.y, <, 0.05);
+  g_assert_cmpfloat(hold.above, ==, 0);
   setting_close(&setting);
 }
 
@@ -546,6 +573,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
   g_test_add_func("/render/stage/picked-behind-a-plane", test_picked_behind_a_plane);
   g_test_add_func("/render/stage/held-places", test_held_places);
+  g_test_add_func("/render/stage/held-within", test_held_within);
   g_test_add_func("/render/stage/sphere-scale", test_sphere_scale);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);

@@ -48,8 +48,7 @@ static GPtrArray *find_cut(const GPtrArray *drawables, const Plane *plane) {
     SporeDrawable *drawable = drawables->pdata[i];
     if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
     const SporeSurfaceGroup *surface = (const SporeSurfaceGroup *)drawable;
-    if (surface->closed && !surface->values && !surface->style.wireframe && is_crossed(drawable, plane))
-      g_ptr_array_add(cut, drawable);
+    if (spore_surface_is_filled(surface) && is_crossed(drawable, plane)) g_ptr_array_add(cut, drawable);
   }
   g_ptr_array_sort(cut, by_size);
   return cut;

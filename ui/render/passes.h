@@ -118,6 +118,8 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
                                      gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
+/* Whether its cut by the plane of the frame is filled. */
+gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);
 void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count);

@@ -36,6 +36,8 @@ guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices
 /* A surface coloured by the scale (colour_scale.h). values: one a vertex, 0..1; below 0: grey. */
 guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                         const guint32 *triangles, gsize triangle_count, const float *values);
+/* Whether its cut by a plane is filled: it is closed. */
+gboolean spore_renderer_fills_surface(SporeRenderer *renderer, guint surface);
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
 /* stain: one a vertex, 0..1: how much blood covers it; none at first. */
 void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain);

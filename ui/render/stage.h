@@ -78,6 +78,7 @@ typedef struct SporeStageHold {
   gsize count;        /* of the spheres, or of the surface's vertices, when the place was picked */
   guint32 corners[3]; /* of the triangle; of the sphere, its number is the first */
   double at[3];       /* shares of the corners; on a sphere, m from its centre */
+  double above;       /* m along the triangle's normal: a place where a plane cuts the body lies inside */
 } SporeStageHold;
 /* As pick; *hold is set where a body is met. */
 guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point,

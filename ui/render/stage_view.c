@@ -156,23 +156,75 @@ static double meet_sphere(SporeVec3 origin, SporeVec3 direction, const double *s
   return spore_clip_hides(clip, spore_vec3_add_scaled(origin, far, direction)) ? HUGE_VAL : far;
 }
 
-static double meet_body(const SporeStageBody *body, const SporeClip *clip, SporeVec3 origin, SporeVec3 direction,
+/* Where the ray comes out of what the plane hides; else HUGE_VAL. */
+static double meet_plane(const SporeClip *clip, SporeVec3 origin, SporeVec3 direction) {
+  double against = spore_vec3_dot(clip->normal, direction);
+  double hidden = spore_vec3_dot(clip->normal, origin) - clip->distance;
+  return against < 0 && hidden > 0 ? -hidden / against : HUGE_VAL;
+}
+
+/* Corners of the triangle as it is drawn, and its normal of length 1. */
+static void load_triangle(const double *points, const guint32 *corners, SporeVec3 at[3], SporeVec3 *normal) {
+  for (int k = 0; k < 3; k++) at[k] = spore_vec3_load(points + 3 * (gsize)corners[k]);
+  SporeVec3 across = spore_vec3_cross(spore_vec3_sub(at[1], at[0]), spore_vec3_sub(at[2], at[0]));
+  *normal = spore_vec3_normalise(across, spore_vec3(0, 1, 0));
+}
+
+/* Holds a place within the body by a triangle of its surface. */
+static void hold_within(SporeStageHold *hold, const double *points, SporeVec3 place) {
+  SporeVec3 at[3], normal;
+  load_triangle(points, hold->corners, at, &normal);
+  hold->above = spore_vec3_dot(spore_vec3_sub(place, at[0]), normal);
+  SporeVec3 below = spore_vec3_add_scaled(place, -hold->above, normal);
+  double whole = 0;
+  for (int k = 0; k < 3; k++) { /* the share of a corner is that of the triangle across from the corner */
+    SporeVec3 b = at[(k + 1) % 3], c = at[(k + 2) % 3];
+    hold->at[k] = spore_vec3_dot(spore_vec3_cross(spore_vec3_sub(b, below), spore_vec3_sub(c, below)), normal);
+    whole += hold->at[k];
+  }
+  for (int k = 0; k < 3 && whole > 0; k++) hold->at[k] /= whole;
+}
+
+/* Whether the ray comes out of the body through the triangle. */
+static gboolean leaves(const double *points, const guint32 *corners, SporeVec3 direction) {
+  SporeVec3 at[3], normal;
+  load_triangle(points, corners, at, &normal);
+  return spore_vec3_dot(normal, direction) > 0;
+}
+
+/* The nearest triangle that is not hidden, or the face at which the plane cuts the body, where that is filled. */
+static double meet_surface(const SporeStage *stage, const SporeStageBody *body, SporeVec3 origin, SporeVec3 direction,
+                           double nearest, SporeStageHold *hold) {
+  const double *points = body->surface.positions;
+  double plane = meet_plane(&stage->clip, origin, direction), behind = HUGE_VAL;
+  SporeStageHold within = {0};
+  for (gsize i = 0; i < body->triangle_count; i++) {
+    SporeStageHold met = {.body = body->object, .count = body->surface.count};
+    memcpy(met.corners, body->triangles + 3 * i, sizeof met.corners);
+    double t = meet_triangle(origin, direction, points, met.corners, met.at);
+    if (t == HUGE_VAL) continue;
+    if (t > plane && t < behind) behind = t, within = met;
+    if (t < nearest && !spore_clip_hides(&stage->clip, spore_vec3_add_scaled(origin, t, direction)))
+      nearest = t, *hold = met;
+  }
+  if (behind == HUGE_VAL || !(plane < nearest) ||
+      !spore_renderer_fills_surface(stage->renderer, body->surface_handle) ||
+      !leaves(points, within.corners, direction))
+    return nearest;
+  *hold = within;
+  hold_within(hold, points, spore_vec3_add_scaled(origin, plane, direction));
+  return plane;
+}
+
+static double meet_body(const SporeStage *stage, const SporeStageBody *body, SporeVec3 origin, SporeVec3 direction,
                         double nearest, SporeStageHold *hold) {
-  double o[3], d[3], shares[3];
+  double o[3], d[3];
   spore_vec3_store(o, origin);
   spore_vec3_store(d, direction);
-  const double *points = body->surface.positions;
-  if (body->surface_handle && meets_box(points, body->surface.count, o, d, nearest))
-    for (gsize i = 0; i < body->triangle_count; i++) {
-      double t = meet_triangle(origin, direction, points, body->triangles + 3 * i, shares);
-      if (!(t < nearest) || spore_clip_hides(clip, spore_vec3_add_scaled(origin, t, direction))) continue;
-      nearest = t;
-      *hold = (SporeStageHold){.body = body->object, .count = body->surface.count};
-      memcpy(hold->corners, body->triangles + 3 * i, sizeof hold->corners);
-      memcpy(hold->at, shares, sizeof hold->at);
-    }
+  if (body->surface_handle && meets_box(body->surface.positions, body->surface.count, o, d, nearest))
+    nearest = meet_surface(stage, body, origin, direction, nearest, hold);
   for (gsize i = 0; body->solid && i < body->shown; i++) {
-    double t = meet_sphere(origin, direction, body->spheres + 4 * i, clip);
+    double t = meet_sphere(origin, direction, body->spheres + 4 * i, &stage->clip);
     if (!(t < nearest)) continue;
     nearest = t;
     *hold = (SporeStageHold){.body = body->object, .on_sphere = TRUE, .count = body->shown, .corners = {(guint32)i}};
@@ -188,8 +240,8 @@ guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVe
   guint32 picked = 0;
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
-    double t = spore_stage_shows(stage, body->object) ? meet_body(body, &stage->clip, origin, direction, nearest, hold)
-                                                      : HUGE_VAL;
+    double t =
+        spore_stage_shows(stage, body->object) ? meet_body(stage, body, origin, direction, nearest, hold) : HUGE_VAL;
     if (t < nearest) nearest = t, picked = body->object;
   }
   if (picked) *point = spore_vec3_add_scaled(origin, nearest, direction);
@@ -216,10 +268,10 @@ gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, S
     *point = spore_vec3_add(spore_vec3_load(body->spheres + 4 * hold->corners[0]), spore_vec3_load(hold->at));
     return TRUE;
   }
-  *point = spore_vec3(0, 0, 0);
-  for (int k = 0; k < 3; k++)
-    *point = spore_vec3_add_scaled(*point, hold->at[k],
-                                   spore_vec3_load(body->surface.positions + 3 * (gsize)hold->corners[k]));
+  SporeVec3 at[3], normal;
+  load_triangle(body->surface.positions, hold->corners, at, &normal);
+  *point = spore_vec3_scale(hold->above, normal);
+  for (int k = 0; k < 3; k++) *point = spore_vec3_add_scaled(*point, hold->at[k], at[k]);
   return TRUE;
 }
 

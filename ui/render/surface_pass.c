@@ -139,6 +139,10 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
   return surface;
 }
 
+gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface) {
+  return surface->closed && !surface->values && !surface->style.wireframe;
+}
+
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
   spore_drawable_set_bounds(&surface->base, vertices, surface->vertex_count, 3, FALSE, FALSE);
   spore_triangle_mesh_normals(vertices, surface->vertex_count, surface->triangles, surface->triangle_count,
