@@ -102,10 +102,10 @@ def empty_window_says_what_to_do():
 def templates_to_begin_with():
     """the empty view offers whole scenes to begin with: one plays, has no file until it is saved, and is not changed by that."""
     with start() as editor:
-        editor.press(editor.find("toggle button", "^Templates$"))
-        editor.find(".*", "^Thread: ")
+        editor.find("toggle button", "^Templates$")
+        picture = editor.find("push button", "^Thread: ")
         keep_picture(editor, "templates")
-        editor.press(editor.find(".*", "^Thread: "))
+        editor.press(picture)
         ui.wait(lambda: editor.row("probe") or editor.enabled("play"), "the scene")
         editor.find("label", "^Untitled$")
         assert not editor.enabled("undo") and editor.enabled("save"), "it is new, and nowhere yet"

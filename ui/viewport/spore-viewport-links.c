@@ -136,10 +136,6 @@ void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, gu
   gtk_widget_queue_draw(self->area);
 }
 
-void spore_viewport_set_template_menu(SporeViewport *self, GMenuModel *templates) {
-  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->template_button), templates);
-}
-
 void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led) {
   g_set_object(&self->instrument_kinds, kinds);
   gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->instrument_button), kinds);

@@ -29,6 +29,8 @@ typedef struct SporeViewportPicture {
 
 struct _SporeViewport {
   GtkOverlay parent;
+  GtkRequisition pictures_size; /* pixels, while they are shown */
+  GtkWidget *pictures;          /* of templates; NULL: none are set */
   GtkWidget *area, *foot, *template_button, *messages, *hud, *tools, *tool_row, *select_tool, *lead_tool, *edit_tool,
       *look_row, *overlays, *measure_list, *welcome, *beginnings, *failure, *link_button, *instrument_button,
       *led_button, *measure_button, *cut_slider, *notice, *foot_row, *second, *second_area, *second_name, *large_name;
@@ -113,6 +115,8 @@ SporeCamera spore_viewport_beginning(void);
 gboolean spore_viewport_has_anything(SporeViewport *self);
 /* The welcome is shown while nothing else is. */
 void spore_viewport_show_welcome(SporeViewport *self);
+/* To the size of the view; top: height of the tools above it. */
+void spore_viewport_fit_welcome(SporeViewport *self, int top);
 /* Goes where the scene's camera goes, as long as the view looks through it. */
 void spore_viewport_follow_camera(SporeViewport *self);
 /* Where nothing was to be seen before, the view goes to what is there now. */

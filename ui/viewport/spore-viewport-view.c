@@ -2,14 +2,18 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "ui/panels/report.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define FIELD_OF_VIEW_RAD 0.61
 /* An empty scene shows about a hand's breadth. */
 #define EMPTY_DISTANCE_M 0.4
-#define HANDLE_PIXELS 6.0 /* radius as drawn */
-#define CROSS_PIXELS 9.0  /* arm of the cross in the middle while something is picked */
-#define REACH_PIXELS 11.0 /* distance from a handle within which a click meets it */
+/* Of the welcome, pixels. */
+#define WELCOME_PADDING 72 /* on both sides, of the style */
+#define WELCOME_WORDS 170  /* height without the pictures */
+#define HANDLE_PIXELS 6.0  /* radius as drawn */
+#define CROSS_PIXELS 9.0   /* arm of the cross in the middle while something is picked */
+#define REACH_PIXELS 11.0  /* distance from a handle within which a click meets it */
 
 /* What the views show, where both are shown. */
 static void name_views(SporeViewport *self) {
@@ -44,6 +48,24 @@ gboolean spore_viewport_has_anything(SporeViewport *self) {
 void spore_viewport_show_welcome(SporeViewport *self) {
   gtk_widget_set_visible(self->welcome, !self->waiting && !spore_viewport_has_anything(self) &&
                                             !gtk_widget_get_visible(self->failure));
+}
+
+void spore_viewport_set_templates(SporeViewport *self, GMenuModel *templates, GtkWidget *pictures) {
+  gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->template_button), templates);
+  gtk_widget_set_halign(pictures, GTK_ALIGN_CENTER);
+  gtk_container_add(GTK_CONTAINER(self->welcome), pictures);
+  gtk_widget_get_preferred_size(pictures, NULL, &self->pictures_size);
+  self->pictures = pictures;
+}
+
+void spore_viewport_fit_welcome(SporeViewport *self, int top) {
+  int width = gtk_widget_get_allocated_width(self->area), height = gtk_widget_get_allocated_height(self->area);
+  spore_box_fit(GTK_BOX(self->beginnings), width - WELCOME_PADDING);
+  if (!self->pictures) return;
+  gboolean room = self->pictures_size.width + WELCOME_PADDING <= width &&
+                  self->pictures_size.height + WELCOME_WORDS + top <= height;
+  gtk_widget_set_visible(self->pictures, room);
+  gtk_widget_set_margin_top(self->welcome, room ? top : 0);
 }
 
 /* The camera. */

@@ -10,7 +10,6 @@
 /* Widths of the figures in the corner; beside the large controls there is less room. */
 #define HUD_CHARS 60
 #define HUD_BESIDE_CONTROLS 38
-#define WELCOME_PADDING 72 /* on both sides, of the style */
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
 
@@ -143,7 +142,8 @@ static gboolean place_overlays(gpointer data) {
   }
   gtk_widget_set_margin_top(self->overlays, top);
   spore_viewport_size_second(self);
-  spore_box_fit(GTK_BOX(self->beginnings), gtk_widget_get_allocated_width(self->area) - WELCOME_PADDING);
+  gtk_widget_get_preferred_height(self->overlays, NULL, &height); /* with its margins */
+  spore_viewport_fit_welcome(self, height);
   return G_SOURCE_REMOVE;
 }
 

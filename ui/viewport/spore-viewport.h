@@ -79,8 +79,9 @@ void spore_viewport_set_anchors(SporeViewport *self, const SporeVec3 *places, gu
 void spore_viewport_set_outline(SporeViewport *self, const SporeVec3 *points, guint count);
 /* The key that does this in the view; action: detailed, "win.view::top". 0: none does. */
 guint spore_viewport_key_of(const char *action);
-/* Scenes to begin with, for the button of the empty view. */
-void spore_viewport_set_template_menu(SporeViewport *self, GMenuModel *templates);
+/* Scenes to begin with, for the button of the empty view, and their pictures, which are shown where there is room.
+ * Takes pictures. */
+void spore_viewport_set_templates(SporeViewport *self, GMenuModel *templates, GtkWidget *pictures);
 /* The kinds of links, for the view's button and menu. */
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
 /* The kinds of fluids, for the view's menu. */
