@@ -149,6 +149,54 @@ static void test_links(void) {
   }
 }
 
+/* The way that the first particle goes which comes out of a mouth on tissue, once that has turned by a quarter about z:
+ * of a sheet, or of a thread. */
+static SporeVec3 way_out(bool thread, bool turned) {
+  Rig *rig = drop(0, 1, 10, 100);
+  SporeTriangleMesh sheet;
+  SporeEmitterDescription wound = rig->description.emitters[0];
+  if (thread) {
+    double *line = SPORE_NEW_ARRAY(double, 4 * 8);
+    for (int i = 0; i < 8; i++)
+      spore_vec3_store(line + 4 * i, spore_vec3(0.05 + 0.005 * i, 0, 0)), line[4 * i + 3] = 1e-3;
+    rig_passive(rig, "tissue", rig_curve_model(&spore_spline_1d, &(SporeCurve){8, line}, NULL), NULL);
+  } else {
+    shape_level_sheet(&sheet, 5, 5, 0.005);
+    rig_passive(rig, "tissue", rig_surface_model(&spore_mass_spring_net, &sheet, NULL), NULL);
+  }
+  wound.source = 2;
+  wound.point = thread ? spore_vec3(0.07, 0.001, 0) : spore_vec3(0.01, 0.001, 0.01);
+  wound.fields.start = 0;
+  rig->description.emitters = &wound;
+  SporeWorld *world = rig_build(rig);
+  size_t count = spore_world_body_model(world, 2)->node_count, before = particles(world);
+  g_autofree double *q = g_memdup2(spore_world_q(world, 2), 3 * count * sizeof *q), *v = g_new0(double, 3 * count);
+  for (size_t i = 0; turned && i < count; i++) {
+    double x = q[3 * i], y = q[3 * i + 1];
+    q[3 * i] = 0.1 - y, q[3 * i + 1] = x;
+  }
+  spore_world_set_state(world, 2, q, v);
+  while (particles(world) == before) spore_world_step(world);
+  const double *speeds = spore_world_v(world, 0), *at = spore_world_q(world, 0);
+  SporeVec3 way = {0, 0, 0};
+  for (size_t i = 0; i < spore_world_body_model(world, 0)->node_count; i++)
+    if (!spore_particle_is_out(at + 3 * i) && spore_vec3_length(spore_vec3_load(speeds + 3 * i)) > 0.04)
+      way = spore_vec3_load(speeds + 3 * i);
+  rig_free(rig);
+  return way;
+}
+
+/* What bleeds out of tissue goes the way that the tissue has turned. */
+static void test_mouth_turns(void) {
+  for (int thread = 0; thread < 2; thread++) {
+    SporeVec3 straight = way_out(thread, false), turned = way_out(thread, true);
+    g_test_message("out at %.3f %.3f %.3f m/s, and %.3f %.3f %.3f once it has turned", straight.x, straight.y,
+                   straight.z, turned.x, turned.y, turned.z);
+    g_assert_cmpfloat(spore_vec3_distance(straight, spore_vec3(0, 0.05, 0)), <, 5e-3);
+    g_assert_cmpfloat(spore_vec3_distance(turned, spore_vec3(-0.05, 0, 0)), <, 5e-3);
+  }
+}
+
 static void test_refused(void) {
   Rig *rig = drop(0, 1, 10, 100);
   SporeError error = SPORE_ERROR_INIT;
@@ -166,6 +214,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/flow/circle", test_circle);
   g_test_add_func("/flow/reserve", test_reserve);
   g_test_add_func("/flow/links", test_links);
+  g_test_add_func("/flow/mouth-turns", test_mouth_turns);
   g_test_add_func("/flow/refused", test_refused);
   return g_test_run();
 }

@@ -102,14 +102,6 @@ static void dissolve(SporeWorld *world, SporeBody *body) {
       spore_world_take_particle(world, body, i);
 }
 
-SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body) {
-  assert(body == SPORE_NO_BODY || body < world->body_count);
-  if (body == SPORE_NO_BODY) return spore_pose_identity();
-  if (world->bodies[body].role == SPORE_UNMOVABLE) return world->bodies[body].rest_pose;
-  const double *q = world->state.next_q + world->bodies[body].q_offset;
-  return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
-}
-
 /* Whether a tool that the body leads coagulated something in this step. */
 static bool coagulates(const SporeWorld *world, uint32_t body) {
   for (size_t i = 0; i < world->tools.count; i++) {
@@ -143,17 +135,6 @@ static bool bleeds(const SporeWorld *world, SporeEmitter *emitter) {
   if (now.coagulated > emitter->marks.coagulated) emitter->bleeds = false;
   emitter->marks = now;
   return emitter->bleeds;
-}
-
-/* The frame that the mouth is in, in the next state. */
-static SporePose mouth_frame(const SporeWorld *world, const SporeEmitter *emitter) {
-  if (emitter->node == SPORE_NO_NODE) return spore_world_next_pose(world, emitter->source);
-  const SporeBody *body = &world->bodies[emitter->source];
-  const double *q = body->sleep.asleep ? world->state.q : world->state.next_q;
-  size_t last = body->model->node_count - 1, node = emitter->node < last ? emitter->node : last; /* of coarser levels */
-  SporePose frame = spore_pose_identity();
-  frame.position = spore_vec3_load(q + body->q_offset + 3 * node);
-  return frame;
 }
 
 /* Uniform in 0..1, the same on every machine. */
@@ -202,7 +183,7 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
     spore_world_wake(world, emitter->body); /* it gets particles after the next step */
     return;
   }
-  SporePose frame = mouth_frame(world, emitter);
+  SporePose frame = spore_emitter_frame(world, emitter);
   SporeVec3 velocity = spore_quat_rotate(frame.orientation, spore_vec3_scale(fields->speed, emitter->direction));
   SporeVec3 at;
   while (emitter->due >= 1 && body->held.count > body->held.pin_count && find_place(world, emitter, &frame, &at)) {
@@ -247,8 +228,6 @@ static bool is_bipolar(const SporeWorld *world, uint32_t body) {
     if (world->tools.all[i]->bodies[0] == body && world->tools.all[i]->type->heats) return true;
   return false;
 }
-
-static bool deforms(const SporeBody *body) { return body->model && !spore_model_is_rigid(body->model); }
 
 static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDescription *from) {
   if (from->body >= world->body_count || !spore_body_is_fluid(&world->bodies[from->body]))
@@ -299,33 +278,10 @@ static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
   }
 }
 
-/* The node of the body that is nearest to the place at time 0. */
-static uint32_t nearest_node(const SporeWorld *world, const SporeBody *body, SporeVec3 place) {
-  const double *q = world->state.rest_q + body->q_offset;
-  uint32_t nearest = 0;
-  for (uint32_t i = 1; i < body->model->node_count; i++)
-    if (spore_vec3_distance(spore_vec3_load(q + 3 * i), place) <
-        spore_vec3_distance(spore_vec3_load(q + 3 * nearest), place))
-      nearest = i;
-  return nearest;
-}
-
 static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
-  assert(from->source == SPORE_NO_BODY || from->source < world->body_count);
-  const SporeBody *source = from->source == SPORE_NO_BODY ? NULL : &world->bodies[from->source];
-  SporePose frame = source ? source->rest_pose : spore_pose_identity();
-  uint32_t node = SPORE_NO_NODE;
-  if (source && deforms(source)) {
-    node = nearest_node(world, source, from->point);
-    frame = spore_pose_identity();
-    frame.position = spore_vec3_load(world->state.rest_q + source->q_offset + 3 * (size_t)node);
-  }
-  SporeQuat back = spore_quat_conjugate(frame.orientation);
-  SporeVec3 direction = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
-  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .node = node, .fields = from->fields};
+  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .fields = from->fields};
   begin(emitter);
-  emitter->point = spore_quat_rotate(back, spore_vec3_sub(from->point, frame.position));
-  emitter->direction = spore_quat_rotate(back, direction);
+  spore_emitter_set_mouth(world, emitter, from->point, from->direction);
   keep_back(world, &world->bodies[from->body], (size_t)from->fields.reserve);
 }
 

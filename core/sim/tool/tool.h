@@ -20,8 +20,11 @@ typedef struct SporeTool {
 /* A source of particles; see SporeEmitterDescription. */
 typedef struct SporeEmitter {
   uint32_t body, source;
-  SporeVec3 point, direction; /* in the frame of the source; where that deforms, beside the node and in the scene */
-  uint32_t node; /* of a source that deforms, the nearest to the mouth at time 0; SPORE_NO_NODE: it is rigid */
+  SporeVec3 point, direction; /* in the frame of the source; where that deforms, beside the node, as at time 0 */
+  uint32_t node;      /* of a source that deforms, the nearest to the mouth at time 0; SPORE_NO_NODE: it is rigid */
+  uint32_t beside[2]; /* nodes near that one, by which the mouth turns */
+  SporeMat3 triangle; /* of the three at time 0: along the first side, in the plane, and across it */
+  bool on_a_line;     /* the three are no triangle: the mouth turns by the first side alone */
   SporeEmitterFields fields;
   double due;           /* particles that the rate allows by now; whole ones are put */
   bool bleeds;          /* of a wound: it was cut, and not coagulated since */
@@ -73,11 +76,17 @@ void spore_world_reset_particles(SporeWorld *world);
 bool spore_body_is_fluid(const SporeBody *body);
 /* Takes a particle out of the world, in the next state. */
 void spore_world_take_particle(SporeWorld *world, SporeBody *body, size_t particle);
-/* Pose of an unmovable, active or rigid body in the next state; SPORE_NO_BODY: the identity. */
-SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body);
 extern const char *const spore_flow_triggers[3]; /* choices of `trigger`, NULL at the end */
 /* Number of particles that a flow may move by now. rate: particles a second; due: what was left of this number before;
  * trigger: SporeFlowTrigger, of the device that moves the body. */
 double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_t body, double due);
+
+/* mouth.c: where an emitter lets particles out. */
+/* Pose of an unmovable, active or rigid body in the next state; SPORE_NO_BODY: the identity. */
+SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body);
+/* Sets the mouth of an emitter, whose source is set: middle and way out, world, at time 0. */
+void spore_emitter_set_mouth(const SporeWorld *world, SporeEmitter *emitter, SporeVec3 point, SporeVec3 direction);
+/* The frame that the mouth is in, in the next state. */
+SporePose spore_emitter_frame(const SporeWorld *world, const SporeEmitter *emitter);
 
 #endif
