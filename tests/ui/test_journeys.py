@@ -2076,37 +2076,33 @@ def the_place_outside_is_kept():
     with start(SCENES / "minimal.spore") as editor:
         ui.wait(lambda: editor.row("ball"), "the scene")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+
+        def picture(name):
+            """The view as it is now, drawn anew."""
+            path = folder("pictures") / f"kept-{name}.png"
+            editor.act("save-picture", "s", str(path))
+            ui.wait(path.exists, "the picture")
+            return path.read_bytes()
+
+        def turn():
+            editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 2, "mousemove_relative", "--", 60, 0, "mousemove_relative", "--", 40, 30, "mouseup", 2)
+
+        editor.act("second-view")
         editor.act("view", "s", "right")
-        editor.focus()
-
-        def picture():
-            return picture_of_view(editor, 100)[0]
-
-        def changed(last, what):
-            """A picture that is no more the last one, and stays so."""
-            ui.wait(lambda: picture() != last, what)
-            return settled()
-
-        def settled():
-            seen = [picture()]
-            ui.wait(lambda: seen.append(picture()) or seen[-1] == seen[-2], "the view to stand still")
-            return seen[-1]
-
-        outside = settled()
-        editor.keys("x")
-        through = changed(outside, "the view through the camera")
-        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 2, "mousemove_relative", "--", 60, 0, "mousemove_relative", "--", 40, 30, "mouseup", 2)
-        changed(through, "the view to turn")
-        editor.keys("x")
-        ui.wait(lambda: picture() == through, "the view through the camera again")
-        editor.keys("x")
-        ui.wait(lambda: picture() == outside, "the place outside, not the one beside the camera")
-        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 2, "mousemove_relative", "--", 60, 0, "mousemove_relative", "--", 40, 30, "mouseup", 2)
-        moved = changed(outside, "the view outside to turn")
-        editor.keys("x")
-        ui.wait(lambda: picture() == through, "the view through the camera once more")
-        editor.keys("x")
-        ui.wait(lambda: picture() == moved, "the place outside as it was moved there")
+        ui.wait(lambda: editor.says("label", "^The mouse works in the view from outside"), "the view to be outside")
+        outside = picture("outside")
+        editor.act("swap-views")
+        ui.wait(lambda: editor.says("label", "^The mouse works in: front$"), "the view through the camera")
+        turn()
+        ui.wait(lambda: editor.says("label", "^The mouse works in the view from outside"), "the view to leave the camera")
+        editor.act("swap-views")
+        editor.act("swap-views")
+        assert picture("back") == outside, "the place outside, not the one beside the camera"
+        turn()
+        ui.wait(lambda: picture("turned") != outside, "the view outside to turn")
+        editor.act("swap-views")
+        editor.act("swap-views")
+        assert picture("moved") != outside, "the place outside as it was moved there"
 
 
 @check
@@ -2397,6 +2393,8 @@ def port_moved_in_the_view():
             return vector(root.find("links/port").get("point")), root.find("bodies/body[@name='probe']").get("rotation")
 
         before = port()
+        handle = lambda: beside((middle[0] - 10, middle[1] - 2, 0)) > 160  # is drawn in the middle
+        ui.wait(handle, "the handle")
         editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0)
         keep_picture(editor, "port")
         editor.mouse("key", "Escape")
@@ -2409,7 +2407,7 @@ def port_moved_in_the_view():
         assert abs(place[2]) < 1e-3, f"there is no surface beside it: {place}"
         keep_picture(editor, "port-moved")
         editor.act("undo")
-        ui.wait(lambda: port() == before, "the step to be undone")
+        ui.wait(lambda: port() == before and handle(), "the step to be undone")
         editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", -30, 0, "mousemove_relative", "--", -30, 0, "mouseup", 1)
         ui.wait(lambda: editor.enabled("undo"), "one step")
         place, _ = port()
