@@ -543,7 +543,8 @@ def regions_and_levels_are_added_and_deleted():
     """a region is added, changed and deleted in the inspector, a step each, and shown in the view; the scene runs with it; a coarser level is made, listed, refused a second time in words, and deleted with its tetrahedra."""
     with start() as editor:
         make_solid_ball(editor)
-        editor.act("add-level", "s", "coarse")
+        ui.wait(lambda: editor.enabled("add-level"), "the work to end")
+        editor.press(editor.find("push button", "^Add coarse level$", showing=False))
         button = editor.find("push button", "^Delete: Coarse level$", showing=False)
         ui.wait(lambda: editor.enabled("add-level"), "the work to end")
         editor.act("add-level", "s", "coarse")

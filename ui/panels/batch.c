@@ -8,7 +8,7 @@
 GtkWidget *spore_action_button_new(const char *label, const char *action, const char *hint) {
   GtkWidget *button = gtk_button_new_with_label(label);
   gtk_widget_set_tooltip_text(button, hint);
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+  gtk_actionable_set_detailed_action_name(GTK_ACTIONABLE(button), action);
   return button;
 }
 

@@ -325,7 +325,7 @@ static void add_body(SporeInspector *self, SporeObject *body) {
       spore_section_list_add(sections_of(self), _("Fidelity"), path, spore_object_child_of(body, "fidelity"));
   if (!fidelity) return;
   add_unit(self, fidelity, body, "fidelity");
-  if (model) spore_add_level_list(fidelity, self->document, body, spore_section_rows(fidelity));
+  spore_add_level_list(fidelity, self->document, body, spore_section_rows(fidelity));
 }
 
 /* Of gravity: the positions of a patient. */
