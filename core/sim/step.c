@@ -120,7 +120,7 @@ static double integrate_work(const SporeWorld *world) {
 
 static double effect_of(const SporeWorld *world, uint32_t index) {
   const SporeBody *body = &world->bodies[index];
-  if (!body->effect.drops.from) return EFFECT_US;
+  if (!body->effect.drops.from || body->effect.settled) return EFFECT_US;
   return DROP_US * (double)body->block_count * world->solver.time_step / SPORE_POUR_PACE_S;
 }
 

@@ -168,7 +168,7 @@ bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) {
 }
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
-  return world->bodies[body].sleep.asleep;
+  return world->bodies[body].sleep.asleep || world->bodies[body].effect.drops.rest.asleep;
 }
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->state.step; }
 SporeBodyMarks spore_world_body_marks(const SporeWorld *world, uint32_t body) {

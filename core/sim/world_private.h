@@ -97,6 +97,10 @@ static inline double spore_body_pour_time(const SporeWorld *world, const SporeBo
 static inline bool spore_body_moves(const SporeBody *body) {
   return spore_body_is_physical(body) && !body->frozen && !body->sleep.asleep;
 }
+/* Whether the body stays where it is in this step, so that its next state is not written. */
+static inline bool spore_body_lies_still(const SporeBody *body) {
+  return body->sleep.asleep || (body->effect.on && body->effect.settled);
+}
 /* Whether the body's own forces are independent of its velocity. */
 static inline bool spore_body_is_static(const SporeBody *body) {
   return body->method.integrator == SPORE_INTEGRATOR_STATIC;

@@ -380,6 +380,109 @@ static void test_drops_there_and_back(void) {
 }
 
 /* In its middle a dent is its push; far off it falls as the third power. */
+/* Blood in a pit, until it sleeps; `extra` as of pour. */
+static SporeWorld *sleeping_pool(Rig *rig) {
+  rig->description.solver.sleep_speed = 1e-3;
+  SporeWorld *world = rig_build(rig);
+  for (int i = 0; i < 3000 && !spore_world_body_asleep(world, 0); i++) spore_world_step(world);
+  g_assert_true(spore_world_body_asleep(world, 0));
+  return world;
+}
+
+/* Mean height of the drops in the world, and how many there are; of those left and right of the middle. */
+static double mean_height(const SporeWorld *world) {
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < spore_world_body_model(world, 0)->node_count; i++)
+    if (!spore_particle_is_out(spore_world_q(world, 0) + 3 * i)) sum += spore_world_q(world, 0)[3 * i + 1], count++;
+  return sum / (double)count;
+}
+
+/* A pool that lies still sleeps where it is, to the bit; a pool that never sleeps is as high. */
+static void test_drops_sleep(void) {
+  Rig *rig = pour(4e-3, NULL), *awake = pour(4e-3, NULL);
+  awake->description.solver.sleep_speed = 0;
+  SporeWorld *world = sleeping_pool(rig), *other = rig_build(awake);
+  double when = spore_world_time_s(world);
+  uint64_t hash = spore_world_body_hash(world, 0), before = spore_allocation_count();
+  rig_run(world, 250);
+  g_assert_cmpuint(spore_allocation_count(), ==, before);
+  rig_run(other, (unsigned)lround((when + 1) / 4e-3));
+  g_test_message("asleep after %.2f s, %.3f mm high; %.3f mm where it never sleeps", when, 1e3 * mean_height(world),
+                 1e3 * mean_height(other));
+  g_assert_cmphex(spore_world_body_hash(world, 0), ==, hash);
+  g_assert_false(spore_world_body_asleep(other, 0));
+  g_assert_cmpfloat(fabs(mean_height(world) - mean_height(other)), <, 1e-4);
+  uint64_t end = spore_world_hash(world), steps = spore_world_step_count(world);
+  spore_world_reset(world);
+  g_assert_false(spore_world_body_asleep(world, 0));
+  rig_run(world, (unsigned)steps);
+  g_assert_cmphex(spore_world_hash(world), ==, end);
+  const SporeCommand turn = {.kind = SPORE_COMMAND_GRAVITY, .vector = {8, -5, 0}};
+  g_assert_true(spore_world_post(world, &turn));
+  rig_run(world, 50);
+  g_assert_false(spore_world_body_asleep(world, 0));
+  rig_free(rig);
+  rig_free(awake);
+}
+
+static void add_table(Rig *rig) {
+  g_array_remove_index(rig->bodies, 1); /* in place of the pit */
+  rig_active(rig, "table", pit(rig));
+}
+
+/* What the pool lies on may sink slower than any drop would be seen to move: the pool goes down with it. */
+static void test_drops_follow_the_ground(void) {
+  static const double speeds[] = {-0.05, -1e-4};
+  for (unsigned c = 0; c < G_N_ELEMENTS(speeds); c++) {
+    RigMover mover = {{&rig_mover_type}, {0, 0, 0}, {0, 0, 0}};
+    Rig *rig = pour(4e-3, add_table);
+    rig->description.solver.sleep_speed = 1e-3;
+    SporeWorld *world = rig_build(rig);
+    spore_world_set_device(world, 1, &mover.base);
+    for (int i = 0; i < 3000 && !spore_world_body_asleep(world, 0); i++) spore_world_step(world);
+    g_assert_true(spore_world_body_asleep(world, 0));
+    double height = mean_height(world), start = spore_world_time_s(world);
+    mover.velocity.y = speeds[c];
+    mover.from.y = -speeds[c] * start;
+    rig_run(world, 500);
+    double way = mean_height(world) - height, sunk = speeds[c] * (spore_world_time_s(world) - start);
+    g_test_message("the ground went %.3f mm, the pool %.3f mm", 1e3 * sunk, 1e3 * way);
+    g_assert_cmpfloat(fabs(way - sunk), <, 1.5e-4);
+    rig_free(rig);
+  }
+}
+
+static void add_sucker(Rig *rig) {
+  rig_active(rig, "sucker", NULL)->pose.position = spore_vec3(0, 0.2, 0);
+  SporeSuctionFields *fields = rig_tool_fields(rig_tool(rig, &spore_suction, "suction", 2));
+  fields->rate = 100;
+  fields->radius = 0.004;
+  spore_vec3_store(fields->point, spore_vec3(0, 0.2, 0));
+}
+
+/* A suction that comes to a pool asleep takes drops out of it, and the others flow to where they were. */
+static void test_sleeping_pool_is_sucked(void) {
+  RigMover mover = {{&rig_mover_type}, {0, 0.2, 0}, {0, 0, 0}};
+  Rig *rig = pour(4e-3, add_sucker);
+  rig->description.solver.sleep_speed = 1e-3;
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, 2, &mover.base);
+  for (int i = 0; i < 3000 && !spore_world_body_asleep(world, 0); i++) spore_world_step(world);
+  g_assert_true(spore_world_body_asleep(world, 0));
+  double height = mean_height(world);
+  g_assert_cmpuint(spore_world_tool_state(world, 0).taken, ==, 0);
+  mover.from.y = 0.001;
+  rig_run(world, 200);
+  size_t taken = spore_world_tool_state(world, 0).taken, left = spore_world_particle_count(world, 0);
+  g_test_message("%zu of %zu taken; %.2f mm high before, %.2f mm after", taken, left + taken, 1e3 * height,
+                 1e3 * mean_height(world));
+  g_assert_cmpuint(taken, >, 30);
+  g_assert_cmpuint(left + taken, ==, spore_world_body_model(world, 0)->node_count);
+  g_assert_cmpfloat(mean_height(world), <, height - 1e-4);
+  rig_free(rig);
+}
+
 /* Blood, poured or as particles, over a floor: its mean stain, and that of the part under the blood. */
 typedef struct Stained {
   double mean, under, beside;
@@ -492,6 +595,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/drops-push-nothing", test_drops_push_nothing);
   g_test_add_func("/stability/effect/drops-slip", test_drops_slip);
   g_test_add_func("/stability/effect/drops-there-and-back", test_drops_there_and_back);
+  g_test_add_func("/stability/effect/drops-sleep", test_drops_sleep);
+  g_test_add_func("/stability/effect/drops-follow-the-ground", test_drops_follow_the_ground);
+  g_test_add_func("/stability/effect/sleeping-pool-is-sucked", test_sleeping_pool_is_sucked);
   g_test_add_func("/stability/effect/blood-stains", test_blood_stains);
   g_test_add_func("/stability/effect/water-washes", test_water_washes);
   g_test_add_func("/stability/effect/dent", test_dent);

@@ -6,8 +6,8 @@
  * dynamics", 2006, with velocities of their own, so that what is put apart is not thrown apart). Other bodies are only
  * read. What lies so in a hollow is a heap without friction, which is level: see DENSE for its volume.
  *
- * Short steps move the drops once in SPORE_POUR_PACE_S. Which steps do is told by their number, and what is left from
- * one step to the next is the state alone, so that a run can be repeated to the bit. */
+ * Short steps move the drops once in SPORE_POUR_PACE_S. Which steps do is told by their number, so that a run can be
+ * repeated to the bit. Drops that lie still sleep: see settle.c. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -247,4 +247,5 @@ void spore_body_clear_effect(SporeBody *body) {
   spore_free(body->effect.drops.next);
   spore_free(body->effect.drops.pairs);
   spore_free(body->effect.drops.from);
+  spore_drops_clear_rest(&body->effect.drops.rest);
 }

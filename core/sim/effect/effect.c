@@ -54,7 +54,9 @@ static void move(SporeWorld *world, SporeBody *body) {
   if (form == SPORE_EFFECT_CARRIED) {
     carry(world, body);
   } else if (form == SPORE_EFFECT_POURED) {
+    if (spore_drops_stay(world, body)) return;
     spore_body_pour(world, body);
+    spore_drops_watch(world, body);
   } else {
     bool shaped = form == SPORE_EFFECT_SHAPED && keeps_nodes(body);
     if (!(shaped ? spore_body_shape_effect(world, body) : stand(world, body))) return;
@@ -79,6 +81,8 @@ bool spore_world_create_effects(SporeWorld *world, SporeError *error) {
     SporeBody *body = &world->bodies[b];
     if (!body->model || spore_model_effect_form(body->model) != SPORE_EFFECT_POURED) continue;
     if (!spore_body_make_drops(body, error)) return false;
+    if (!spore_drops_make_rest(world, body))
+      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
     set_apart(world, b);
   }
   return true;
@@ -103,6 +107,7 @@ void spore_world_set_effect(SporeWorld *world, uint32_t index, bool on) {
   spore_world_wake_all(world);
   body->effect.on = on;
   body->effect.settled = false;
+  spore_drops_wake(world, body);
   set_apart(world, index);
   world->solve.watch.started = false;
   spore_body_thaw(body);
@@ -116,5 +121,6 @@ void spore_world_reset_effects(SporeWorld *world) {
     SporeBodyEffect *effect = &world->bodies[b].effect;
     if (effect->on != effect->at_start) spore_world_set_effect(world, (uint32_t)b, effect->at_start);
     effect->settled = false;
+    spore_drops_wake(world, &world->bodies[b]);
   }
 }

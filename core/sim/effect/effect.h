@@ -7,6 +7,21 @@
 #include "core/collide/sphere.h"
 #include "core/sim/state/state.h"
 
+/* Drops that lie still: see settle.c. */
+typedef struct SporeDropRest {
+  bool asleep;      /* so the grid was told; SporeBodyEffect.settled says whether they may go on to sleep */
+  bool noted;       /* what may move and is near them is known */
+  bool begun;       /* a window began */
+  uint64_t step;    /* in which it began */
+  size_t held;      /* particles out of the world then */
+  double *from;     /* 3 a drop: where it was then, m */
+  unsigned windows; /* so many, one after the other, in which they lay still */
+  size_t near_count, room;
+  uint32_t *near;   /* room: spheres near them that may move */
+  double *near_at;  /* 3 a sphere: where it was, m */
+  uint8_t *is_near; /* one a sphere of the world */
+} SporeDropRest;
+
 /* The drops of a fluid that may be poured. */
 #define SPORE_NO_DROP UINT32_MAX
 typedef struct SporeDrops {
@@ -17,6 +32,7 @@ typedef struct SporeDrops {
   size_t pair_count, pair_room;
   SporePair *pairs; /* pair_room: drops that are near each other */
   double *from;     /* 3 a drop: where it was, m; NULL: the body cannot be poured */
+  SporeDropRest rest;
 } SporeDrops;
 
 /* Drops move no more often, s: nobody sees a drop move in less. */
@@ -25,7 +41,7 @@ typedef struct SporeDrops {
 /* What a body knows of its effect. */
 typedef struct SporeBodyEffect {
   bool on, at_start; /* it is an effect now; at time 0 */
-  bool settled;      /* it has the shape of time 0, and keeps that until an instrument comes near */
+  bool settled;      /* it has the shape of time 0, and keeps that until an instrument comes near; its drops sleep */
   bool too_long;     /* the world's time step is too long for the body's physics: it stays an effect */
   SporeDrops drops;
 } SporeBodyEffect;

@@ -150,6 +150,7 @@ void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island) {
 
 void spore_world_wake(SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
+  world->bodies[body].effect.settled = false; /* drops lie no more */
   while (world->bodies[body].sleep.asleep) {
     set_asleep(world, body, false);
     body = world->bodies[body].sleep.next;
@@ -157,7 +158,7 @@ void spore_world_wake(SporeWorld *world, uint32_t body) {
 }
 
 void spore_world_wake_all(SporeWorld *world) {
-  for (uint32_t b = 0; b < world->body_count && world->solve.sleeping_count > 0; b++) spore_world_wake(world, b);
+  for (uint32_t b = 0; b < world->body_count; b++) spore_world_wake(world, b);
 }
 
 /* Wakes a sleeping body if the other body is moved by physics or by a device. True: one was woken. */

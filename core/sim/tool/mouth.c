@@ -80,7 +80,7 @@ static void find_beside(SporeEmitter *emitter, const double *q, uint32_t count) 
 SporePose spore_emitter_frame(const SporeWorld *world, const SporeEmitter *emitter) {
   if (emitter->node == SPORE_NO_NODE) return spore_world_next_pose(world, emitter->source);
   const SporeBody *body = &world->bodies[emitter->source];
-  const double *q = (body->sleep.asleep ? world->state.q : world->state.next_q) + body->q_offset;
+  const double *q = (spore_body_lies_still(body) ? world->state.q : world->state.next_q) + body->q_offset;
   uint32_t last = (uint32_t)body->model->node_count - 1;
   SporePose frame = spore_pose_identity();
   if (body->lod && body->grade != SPORE_LOD_FINE) { /* has other nodes */

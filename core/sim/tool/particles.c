@@ -76,7 +76,7 @@ static double *age_of(SporeBody *body, double *q, size_t particle) {
 
 static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 at, SporeVec3 velocity) {
   assert(particle < body->block_count);
-  world->solve.watch.started = false;
+  world->solve.watch.started = body->effect.settled = false;
   spore_vec3_store(world->state.next_q + body->q_offset + 3 * particle, at);
   if (body->model->life_s > 0) *age_of(body, world->state.next_q + body->q_offset, particle) = 0;
   spore_vec3_store(world->state.next_v + body->v_offset + 3 * particle, velocity);
@@ -179,7 +179,7 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   emitter->due =
       spore_flow_due(world, fields->rate, wound ? SPORE_FLOW_ALWAYS : fields->trigger, emitter->source, emitter->due);
   if (emitter->due < 1) return;
-  if (body->sleep.asleep) {
+  if (spore_body_lies_still(body)) {
     spore_world_wake(world, emitter->body); /* it gets particles after the next step */
     return;
   }

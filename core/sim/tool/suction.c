@@ -15,12 +15,11 @@ typedef struct SporeSuction {
 static void suck_from(SporeWorld *world, SporeSuction *suction, uint32_t index, SporeVec3 mouth) {
   assert(index < world->body_count && spore_body_is_fluid(&world->bodies[index]));
   SporeBody *body = &world->bodies[index];
-  const double *state =
-      body->sleep.asleep ? world->state.q : world->state.next_q; /* the next state of a sleeping body is not written */
+  const double *state = spore_body_lies_still(body) ? world->state.q : world->state.next_q;
   for (size_t i = 0; i < body->block_count && suction->due >= 1; i++) {
     const double *q = state + body->q_offset + 3 * i;
     if (spore_vec3_distance(spore_vec3_load(q), mouth) > suction->fields.radius) continue;
-    if (body->sleep.asleep) {
+    if (spore_body_lies_still(body)) {
       spore_world_wake(world, index); /* its particles are taken after the next step */
       return;
     }
