@@ -3,6 +3,7 @@
 
 #include "core/author/edits.h"
 #include "core/author/level_edits.h"
+#include "core/author/removal.h"
 #include "core/author/soft_edits.h"
 #include "ui/spore-window-private.h"
 
@@ -139,14 +140,6 @@ static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer da
 
 /* Deleting. */
 
-static gboolean delete_all(SporeDocument *document, const GArray *ids, GError **error) {
-  for (guint i = 0; i < ids->len; i++) {
-    SporeObject *object = spore_document_by_id(document, g_array_index(ids, guint32, i));
-    if (object && spore_object_name(object) && !spore_document_remove(document, object, error)) return FALSE;
-  }
-  return TRUE;
-}
-
 static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
@@ -154,9 +147,7 @@ static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data
   gsize count;
   const guint32 *selected = spore_editor_document_get_selected(self->document, &count);
   g_array_append_vals(ids, selected, (guint)count);
-  spore_document_begin(document_of(self), _("Delete"));
-  if (!spore_edit_finish(document_of(self), delete_all(document_of(self), ids, &error)))
-    spore_window_failed(self, error);
+  if (!spore_edit_delete(document_of(self), ids, &error)) spore_window_failed(self, error);
 }
 
 void spore_window_add_body_actions(SporeWindow *self) {

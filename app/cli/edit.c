@@ -12,6 +12,7 @@
 #include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/port_edits.h"
+#include "core/author/removal.h"
 #include "core/author/soft_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
@@ -19,7 +20,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **add, **soft, **level, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
+  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
   SporeCliPlacing placing;
   gboolean probe;
 } Request;
@@ -82,6 +83,20 @@ static gboolean make_soft(SporeCli *cli, SporeDocument *document, char **names, 
   for (guint i = 0; done->soft && i < bodies->len; i++) note(done->changed, bodies->pdata[i]);
   return done->soft && spore_soft_work_run(done->soft, spore_cli_progress(cli), error) &&
          refuse_left_out(done->soft, error) && spore_soft_work_apply(done->soft, document, error);
+}
+
+/* PATH of what has a name */
+static gboolean delete_object(SporeDocument *document, const char *path, GPtrArray *changed, GError **error) {
+  SporeObject *object = spore_document_by_path(document, path);
+  if (!object || !spore_object_name(object))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, path, "%s",
+                             _("there is nothing of that name to delete; expected a path such as bodies/liver or "
+                               "links/cord"));
+  guint32 id = spore_object_id(object);
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof id);
+  g_array_append_val(ids, id);
+  note(changed, object);
+  return spore_edit_delete(document, ids, error);
 }
 
 /* BODY=LEVEL */
@@ -223,6 +238,8 @@ static SporeObject *move_port(SporeDocument *document, const char *text, GError 
 
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
+  for (char **path = request->delete; path && *path; path++)
+    if (!delete_object(document, *path, changed, error)) return FALSE;
   for (char **path = request->add; path && *path; path++) {
     SporeObject *added = spore_edit_add(document, *path, error);
     if (!added) return FALSE;
@@ -301,6 +318,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       "edit", "SCENE", N_("Changes a scene and saves it; then says what there is to mend in it."), 1, 1, members};
   Request request = {0};
   const GOptionEntry entries[] = {
+      {"delete", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.delete,
+       N_("Delete an object, before anything is added: a link, a body with the links that tie it, an instrument with "
+          "all "
+          "that belongs to it (may be repeated)"),
+       "PATH"},
       {"add", 'a', 0, G_OPTION_ARG_STRING_ARRAY, &request.add,
        N_("Add an object, before anything is set: links/spring:cord, bodies/liver/mechanical/spline_1d (may be "
           "repeated)"),
@@ -366,15 +388,17 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  gboolean any = request.add || request.soft || request.level || request.set || request.patient || request.hold ||
-                 request.instrument || request.fluid || request.mirror || request.port || request.placing.move ||
-                 request.placing.turn || request.placing.scale || request.placing.align || request.probe;
+  gboolean any = request.delete || request.add || request.soft || request.level || request.set || request.patient ||
+                 request.hold || request.instrument || request.fluid || request.mirror || request.port ||
+                 request.placing.move || request.placing.turn || request.placing.scale || request.placing.align ||
+                 request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --add, --soft, --level, --set, --patient, --hold, "
+        _("spore edit: nothing is asked for; expected --delete, --add, --soft, --level, --set, --patient, --hold, "
           "--instrument, --mirror, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  g_strfreev(request.delete);
   g_strfreev(request.add);
   g_strfreev(request.soft);
   g_strfreev(request.level);

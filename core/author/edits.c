@@ -51,6 +51,13 @@ SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, c
   return name && *name ? spore_document_find(document, element, name) : NULL;
 }
 
+gboolean spore_edit_is_used(const SporeDocument *document, const SporeObject *object) {
+  const SporeObject *root = spore_document_root(document);
+  for (guint s = 0; s < spore_object_child_count(root); s++)
+    if (spore_object_refers_to(spore_object_child(root, s), object)) return TRUE;
+  return FALSE;
+}
+
 SporeObject *spore_edit_put_asset(SporeDocument *document, const char *element, const char *name, const char *extension,
                                   char *text, gsize size, GError **error) {
   g_autofree char *file = spore_content_file_name(name, extension, text, size);

@@ -10,6 +10,8 @@ SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, 
  * "spheres"). */
 SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
                                    const char *elements);
+/* Whether anything in the scene names the object. */
+gboolean spore_edit_is_used(const SporeDocument *document, const SporeObject *object);
 /* The asset of that element with this content, which is made where the scene has none, and is named so then. Takes
  * text, of `size` bytes, from g_malloc. Call it inside a group. */
 SporeObject *spore_edit_put_asset(SporeDocument *document, const char *element, const char *name, const char *extension,

@@ -142,13 +142,6 @@ SporeObject *spore_level_work_apply(const SporeLevelWork *work, SporeDocument *d
 
 /* Removing. */
 
-static gboolean is_used(const SporeDocument *document, const SporeObject *asset) {
-  const SporeObject *root = spore_document_root(document);
-  for (guint s = 0; s < spore_object_child_count(root); s++)
-    if (spore_object_refers_to(spore_object_child(root, s), asset)) return TRUE;
-  return FALSE;
-}
-
 static gboolean remove_level(SporeDocument *document, SporeObject *level, GError **error) {
   SporeObject *fidelity = spore_object_parent(level), *asset = spore_object_reference(level, "geometry");
   int first = spore_parameter_find(spore_object_type(fidelity)->table, "level");
@@ -156,7 +149,7 @@ static gboolean remove_level(SporeDocument *document, SporeObject *level, GError
       g_str_equal(spore_lod_names[(int)spore_object_number(fidelity, "level")], spore_object_type(level)->element);
   if (begins && !spore_document_unset(document, fidelity, (guint)first, error)) return FALSE;
   if (!spore_document_remove(document, level, error)) return FALSE;
-  return !asset || is_used(document, asset) || spore_document_remove(document, asset, error);
+  return !asset || spore_edit_is_used(document, asset) || spore_document_remove(document, asset, error);
 }
 
 gboolean spore_edit_remove_level(SporeDocument *document, const char *path, GError **error) {

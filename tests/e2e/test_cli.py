@@ -1587,6 +1587,27 @@ def an_instrument_is_refused_with_a_remedy():
 
 @check
 @alike
+def an_instrument_is_deleted_whole():
+    """Each instrument of the library, added and deleted, leaves nothing behind but the mouse; an organ takes its pins along, another's stay; what is not there is refused."""
+    bar = slim_bar()
+    at = bar.with_name("deleted.spore")
+    report("edit", bar, "--set", "bodies/bar/name_guessed=false", "--add", "devices/mouse:mouse", "-o", at)
+    for kind in ("grasper", "needle", "bag", "endoscope_30"):
+        before = at.read_text()
+        report("edit", at, "--instrument", f"{kind}@0.025,0.22,0.004@0.025,0.008,0.004")
+        assert at.read_text() != before
+        assert report("edit", at, "--delete", f"bodies/{kind}_1")["changed"] == [f"bodies/{kind}_1"]
+        assert at.read_text().replace("  <tools/>\n", "") == before.replace("  <tools/>\n", ""), kind
+    refuses("edit", at, "--delete", "bodies/bra", says=["nothing of that name to delete"])
+    text = at.read_text().replace("</bodies>", '<body name="block" role="unmovable"/></bodies>').replace("</links>", '<pin name="other" body="block"/></links>')
+    at.write_text(text)
+    report("edit", at, "--delete", "bodies/bar")
+    tree = xml.etree.ElementTree.parse(at).getroot()
+    assert [pin.get("name") for pin in tree.findall("links/pin")] == ["other"] and tree.find("assets/tetrahedra") is not None
+
+
+@check
+@alike
 def bodies_are_moved_turned_scaled_and_aligned():
     """A bar and its pins are moved, turned about its middle, scaled and aligned with a block; what is no body, way, angle, factor or side is refused, and nothing is written."""
     bar = slim_bar()

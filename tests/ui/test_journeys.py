@@ -2542,6 +2542,11 @@ def every_instrument_is_placed():
             assert kind == "bag" or tip[0] > 0.0, (kind, tip)
             assert (root.find("bodies/body[@name='bag_1_film']") is not None) == (kind == "bag") == bool(root.findall("links/ball")), kind
             keep_picture(editor, f"placed-{kind}")
+            if kind == "bag":
+                editor.act("delete")
+                ui.wait(lambda: not editor.row("bag_1_film") and not editor.row("bag_1_1"), "the film and its ties to be deleted with it")
+                editor.act("undo")
+                ui.wait(lambda: editor.row("bag_1_film"), "them to come back")
             editor.act("undo")
             ui.wait(lambda: not editor.row(f"{kind}_1") and not editor.row("mouse"), "it to be undone in one step")
 
