@@ -96,7 +96,7 @@ typedef struct Obstacle {
 static void clear_obstacle(gpointer obstacle) { spore_bvh_free(((Obstacle *)obstacle)->surface); }
 
 static gboolean is_inside(const Obstacle *obstacle, SporeVec3 at) {
-  return spore_bvh_winding(obstacle->surface, spore_pose_apply_inverse(obstacle->pose, at)) > 0.5;
+  return spore_bvh_inside(obstacle->surface, spore_pose_apply_inverse(obstacle->pose, at));
 }
 
 /* beside: a point just outside of the surface that the ball is put on. */

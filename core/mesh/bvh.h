@@ -20,6 +20,9 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
  * first two moments, which errs by up to about 0.03 a shell (Barill et al. 2018, "Fast winding numbers for soups and
  * clouds"). */
 double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p);
+/* Whether the winding number is over 0.5. Where each edge is passed as often one way as the other, the number is whole,
+ * and this is exact and several times as fast as the number. */
+bool spore_bvh_inside(const SporeBvh *bvh, SporeVec3 p);
 /* Depth: distance where the winding number is over 0.5, minus distance elsewhere. */
 double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p);
 /* A place whose depth is known: all that is nearer to it than the surface lies on its side, and the surface is no

@@ -227,6 +227,7 @@ SporeBvh *spore_bvh_create(const SporeTriangleMesh *mesh, SporeError *error) {
       find_boxes(&b);
       build_node(&b, 0, mesh->triangle_count, 0);
       copy_corners(&b);
+      bvh->closed = spore_bvh_is_closed(bvh);
       done = build_moments(bvh);
     }
     spore_free(b.boxes);

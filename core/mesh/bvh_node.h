@@ -28,7 +28,12 @@ struct SporeBvh {
   double *corners;     /* triangle_count x 9, in the order of the leaves */
   uint32_t *triangles; /* triangle_count: number in the mesh */
   size_t node_count, triangle_count;
+  bool closed; /* every edge of a triangle is passed as often one way as the other */
 };
+
+/* Whether the triangles, by the places of their corners, enclose: the winding number is then whole everywhere off them.
+ */
+bool spore_bvh_is_closed(const SporeBvh *bvh);
 
 /* As spore_bvh_distance, but no more than `below` (m): a search for farther points is cut off. */
 double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest, uint32_t *triangle);

@@ -72,7 +72,7 @@ double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p) {
 
 double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p) {
   double distance = spore_bvh_distance(bvh, p, NULL, NULL);
-  return spore_bvh_winding(bvh, p) > 0.5 ? distance : -distance;
+  return spore_bvh_inside(bvh, p) ? distance : -distance;
 }
 
 SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
@@ -81,6 +81,6 @@ SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const Spo
   here.depth = spore_bvh_distance_below(bvh, p, below, &here.nearest, NULL);
   if (here.depth >= below) here.depth = spore_bvh_distance(bvh, p, &here.nearest, NULL); /* both are 0 */
   bool same = spore_vec3_distance(p, known->place) < fabs(known->depth);
-  if (same ? known->depth < 0 : spore_bvh_winding(bvh, p) <= 0.5) here.depth = -here.depth;
+  if (same ? known->depth < 0 : !spore_bvh_inside(bvh, p)) here.depth = -here.depth;
   return here;
 }

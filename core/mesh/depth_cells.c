@@ -162,7 +162,7 @@ SporeBvhKnown spore_depth_cells_beside(SporeDepthCells *cells, SporeVec3 p, cons
     best = square, here.nearest = q, here.depth = sqrt(square);
     far = ROUND * (here.depth + shift);
   }
-  bool inside = shift < fabs(cell->depth) ? cell->depth > 0 : spore_bvh_winding(cells->bvh, p) > 0.5;
+  bool inside = shift < fabs(cell->depth) ? cell->depth > 0 : spore_bvh_inside(cells->bvh, p);
   if (!inside) here.depth = -here.depth;
   return here;
 }

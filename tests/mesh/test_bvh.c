@@ -99,6 +99,50 @@ static void test_winding(void) {
   spore_triangle_mesh_clear(&mesh);
 }
 
+/* Closed, open, shells in each other, one of them turned inside out, corners in several copies: as the sum over all
+ * triangles says. */
+static void test_inside(void) {
+  for (int kind = 0; kind < 5; kind++) {
+    SporeTriangleMesh mesh, ball;
+    size_t inside = 0;
+    shape_torus(&mesh, 1, 0.4, 24, 12);
+    if (kind == 1) mesh.triangle_count -= 60;
+    if (kind >= 2) {
+      shape_ball(&ball, 1.2, 5);
+      if (kind == 3) shape_turn(&ball);
+      shape_append(&mesh, &ball);
+      spore_triangle_mesh_clear(&ball);
+    }
+    if (kind == 4) shape_unweld(&mesh);
+    SporeBvh *bvh = spore_bvh_create(&mesh, NULL);
+    for (int i = 0; i < 600; i++) {
+      SporeVec3 p = random_point(1.5);
+      double winding = exact_winding(&mesh, p);
+      if (kind == 1 && fabs(winding - 0.5) < 0.05) continue; /* an open one is looked at by the approximation */
+      g_assert_cmpint(spore_bvh_inside(bvh, p), ==, winding > 0.5);
+      inside += winding > 0.5;
+    }
+    g_assert_cmpuint(inside, >, 10);
+    spore_bvh_free(bvh);
+    spore_triangle_mesh_clear(&mesh);
+  }
+}
+
+/* Rays from places of a lattice meet corners and edges of the box's triangles, where a crossing tells nothing. */
+static void test_inside_below_corners(void) {
+  const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1};
+  SporeTriangleMesh box;
+  shape_box(&box, lower, upper, 8);
+  SporeBvh *bvh = spore_bvh_create(&box, NULL);
+  for (int i = 0; i < 11 * 11 * 11; i++) {
+    SporeVec3 p = spore_vec3(i % 11 * 0.25 - 1.25, i / 11 % 11 * 0.25 - 1.25, i / 121 * 0.25 - 1.25);
+    if (box_depth(p) != 0) g_assert_cmpint(spore_bvh_inside(bvh, p), ==, box_depth(p) > 0);
+  }
+  g_assert_false(spore_bvh_inside(bvh, spore_vec3(NAN, 0, 0)));
+  spore_bvh_free(bvh);
+  spore_triangle_mesh_clear(&box);
+}
+
 static void test_ray(void) {
   SporeTriangleMesh ball;
   shape_ball(&ball, 1, 24);
@@ -207,6 +251,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh/bvh/box", test_box);
   g_test_add_func("/mesh/bvh/nearest-triangle", test_nearest_triangle);
   g_test_add_func("/mesh/bvh/winding", test_winding);
+  g_test_add_func("/mesh/bvh/inside", test_inside);
+  g_test_add_func("/mesh/bvh/inside-below-corners", test_inside_below_corners);
   g_test_add_func("/mesh/bvh/ray", test_ray);
   g_test_add_func("/mesh/bvh/degenerate", test_degenerate);
   g_test_add_func("/mesh/bvh/depth-cells", test_depth_cells);

@@ -33,7 +33,7 @@ static void measure_places(const SporeSolid *solid, const SporeCurve *curve, Spo
     SporeVec3 after = point(curve, i + 1 < curve->count ? i + 1 : i);
     double radius = curve->points[4 * i + 3];
     along += spore_vec3_distance(before, p);
-    if (!(spore_bvh_winding(solid->bvh, p) > 0.5)) report->outside += 1 / (double)curve->count;
+    if (!spore_bvh_inside(solid->bvh, p)) report->outside += 1 / (double)curve->count;
     else if (along > RIM * radius && report->length - along > RIM * radius) {
       SporeVec3 across = spore_vec3_normalise(spore_vec3_sub(after, before), spore_vec3(1, 0, 0));
       SporeVec3 middle = spore_section_middle(solid, p, across, SECTION_REACH * radius);
@@ -81,7 +81,7 @@ double spore_section_wall(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, dou
   while (gone < reach && spore_bvh_ray(solid->bvh, spore_vec3_add_scaled(p, gone, d), d, &t, &triangle)) {
     gone += t;
     if (gone >= reach) return reach;
-    if (leaves(solid, triangle, d) || spore_bvh_winding(solid->bvh, spore_vec3_add_scaled(p, gone + beyond, d)) < 0.5)
+    if (leaves(solid, triangle, d) || !spore_bvh_inside(solid->bvh, spore_vec3_add_scaled(p, gone + beyond, d)))
       return gone;
     gone += beyond;
   }

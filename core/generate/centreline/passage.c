@@ -43,7 +43,7 @@ bool spore_passage_know_piece(SporeVoxelTube *tube, SporeError *error) {
 /* Whether the way leaves the organ at a hit: through the front of the one piece that the surface is, or to where the
  * winding number says outside. */
 static bool is_left(const SporeVoxelTube *tube, SporeVec3 d, uint32_t triangle, SporeVec3 behind) {
-  if (!tube->of_one_piece) return !(spore_bvh_winding(tube->solid->bvh, behind) > 0.5);
+  if (!tube->of_one_piece) return !spore_bvh_inside(tube->solid->bvh, behind);
   return tube->of_piece[triangle] && spore_vec3_dot(spore_triangle_across(&tube->solid->mesh, triangle), d) > 0;
 }
 

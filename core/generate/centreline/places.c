@@ -63,6 +63,6 @@ uint32_t spore_voxel_under(const SporeVoxelTube *tube, SporeVec3 p, uint32_t tri
   SporeVec3 outward = spore_vec3_normalise(spore_triangle_across(&tube->solid->mesh, triangle), spore_vec3(0, 0, 0));
   SporeVec3 from = spore_vec3_add_scaled(p, -LIFT * tube->edge, outward);
   SporeVec3 across = spore_vec3_add_scaled(p, LIFT * tube->edge, outward);
-  *within = !tube->of_one_piece && spore_bvh_winding(tube->solid->bvh, across) > 0.5;
+  *within = !tube->of_one_piece && spore_bvh_inside(tube->solid->bvh, across);
   return nearest_seen(tube, from);
 }

@@ -46,8 +46,8 @@ static View view_of(const SporeTriangleMesh *mesh, const SporeBvh *bvh, size_t t
   SporeVec3 n = spore_vec3_normalise(across, spore_vec3(0, 0, 1));
   SporeVec3 middle = spore_vec3_scale(1. / 3, spore_vec3_add(corner[0], spore_vec3_add(corner[1], corner[2])));
   *area = 0.5 * spore_vec3_length(across);
-  if (spore_bvh_winding(bvh, spore_vec3_add_scaled(middle, lift, n)) > 0.5 &&
-      spore_bvh_winding(bvh, spore_vec3_add_scaled(middle, -lift, n)) > 0.5)
+  if (spore_bvh_inside(bvh, spore_vec3_add_scaled(middle, lift, n)) &&
+      spore_bvh_inside(bvh, spore_vec3_add_scaled(middle, -lift, n)))
     return (View){INSIDE, false};
   int front = open_rays(bvh, spore_vec3_add_scaled(middle, lift, n), n);
   if (front >= OUTER) return (View){front, false};

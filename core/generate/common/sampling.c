@@ -34,7 +34,7 @@ static size_t pick(const double *end, size_t count, double value) {
 bool spore_solid_try(const SporeSolid *solid, double share, SporeRandom *random, double p[3]) {
   size_t c = pick(solid->cell_end, solid->cell_count, share * solid->cell_end[solid->cell_count - 1]);
   for (int k = 0; k < 3; k++) p[k] = solid->cells[4 * c + k] + solid->cells[4 * c + 3] * spore_random_unit(random);
-  return solid->cell_inside[c] || spore_bvh_winding(solid->bvh, spore_vec3_load(p)) > 0.5;
+  return solid->cell_inside[c] || spore_bvh_inside(solid->bvh, spore_vec3_load(p));
 }
 
 bool spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,

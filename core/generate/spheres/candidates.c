@@ -24,7 +24,7 @@ static bool shrink_ball(const SporeSolid *solid, SporeVec3 p, SporeVec3 inward, 
   }
   *centre = spore_vec3_add_scaled(p, r, inward);
   *radius = reach;
-  return reach > 1e-6 * solid->diagonal && spore_bvh_winding(solid->bvh, *centre) > 0.5;
+  return reach > 1e-6 * solid->diagonal && spore_bvh_inside(solid->bvh, *centre);
 }
 
 /* One candidate in four is a random interior point with its depth as radius, for solids whose surface points give too

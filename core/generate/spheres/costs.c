@@ -39,9 +39,8 @@ static bool add_point(Cells *cells, SporeVec3 p, double volume) {
 
 /* What is nearer to a known place than the surface lies on its side. */
 static bool is_inside(const SporeSolid *solid, SporeVec3 p, const SporeBvhKnown *known) {
-  return spore_vec3_distance(p, known->place) < fabs(known->depth) * (1 - 1e-9)
-             ? known->depth > 0
-             : spore_bvh_winding(solid->bvh, p) > 0.5;
+  return spore_vec3_distance(p, known->place) < fabs(known->depth) * (1 - 1e-9) ? known->depth > 0
+                                                                                : spore_bvh_inside(solid->bvh, p);
 }
 
 static double factor_at(const SporeSolid *solid, SporeVec3 p) {

@@ -143,7 +143,7 @@ static bool is_free(const Cover *cover, SporeVec3 p, const uint32_t *near, size_
     if (near[l] != j && near[l] != k &&
         spore_vec3_distance(p, spore_balls_centre(cover->balls, near[l])) < cover->balls->r[near[l]] - cover->touching)
       return false;
-  return spore_bvh_winding(cover->solid->bvh, p) > 0.5;
+  return spore_bvh_inside(cover->solid->bvh, p);
 }
 
 /* A corner of a hollow: on the spheres ball[0 .. 2]. */

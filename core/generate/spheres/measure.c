@@ -106,7 +106,7 @@ static bool measure_weighted(Measure *m, const SporeSphereSet *set, SporeSpheres
     double distance = near * spore_random_unit(&m->random), p[3];
     SporeVec3 place =
         spore_vec3_add_scaled(spore_vec3_load(m->points + 3 * i), distance, spore_random_direction(&m->random));
-    if (spore_bvh_winding(m->solid->bvh, place) > 0.5) continue;
+    if (spore_bvh_inside(m->solid->bvh, place)) continue;
     spore_vec3_store(p, place);
     outside++;
     felt += spore_spheres_weighted_depth(set, p) > 0;
@@ -134,8 +134,7 @@ static bool measure_outside(Measure *m, SporeSpheresReport *report) {
   bool done = field_at(m, m->points, MEASURE_SAMPLES, NULL, NULL, held);
   double sum = 0;
   for (size_t i = 0; done && i < MEASURE_SAMPLES && (done = go_on(m, i, MEASURE_SAMPLES)); i++)
-    if (!(spore_bvh_winding(m->solid->bvh, spore_vec3_load(m->points + 3 * i)) > 0.5))
-      sum += 1. / (held[i] ? held[i] : 1);
+    if (!spore_bvh_inside(m->solid->bvh, spore_vec3_load(m->points + 3 * i))) sum += 1. / (held[i] ? held[i] : 1);
   report->outside = sum / MEASURE_SAMPLES * m->ball_volume * (4 * M_PI / 3) / m->solid->volume;
   spore_free(held);
   return done;

@@ -20,7 +20,7 @@ static SporeVec3 unit_point(int i) {
 static double outside_share(const SporeBvh *bvh, const double *sphere) {
   int outside = 0;
   for (int i = 0; i < POINTS_A_SPHERE; i++)
-    outside += spore_bvh_winding(bvh, spore_vec3_add_scaled(spore_vec3_load(sphere), sphere[3], unit_point(i))) <= 0.5;
+    outside += !spore_bvh_inside(bvh, spore_vec3_add_scaled(spore_vec3_load(sphere), sphere[3], unit_point(i)));
   return (double)outside / POINTS_A_SPHERE;
 }
 

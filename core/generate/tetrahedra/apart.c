@@ -33,7 +33,7 @@ static void choose_pieces(SporeTetrahedraWork *work) {
 /* 1 + the piece of the least area around a place; 0: there is none. */
 static uint32_t piece_around(const Parting *parting, SporeVec3 p) {
   for (size_t i = parting->work->piece_count; i-- > 0;)
-    if (parting->work->piece[i].parted && spore_bvh_winding(parting->tree[i], p) > 0.5) return (uint32_t)(i + 1);
+    if (parting->work->piece[i].parted && spore_bvh_inside(parting->tree[i], p)) return (uint32_t)(i + 1);
   return 0;
 }
 

@@ -40,8 +40,8 @@ static SporePieceRole role_of(const SporeTetrahedraWork *work, Look *look) {
   size_t none = 0;
   for (size_t i = 0; i < SPORE_PIECE_SAMPLES; i++) {
     SporeVec3 p = spore_vec3_load(look->shell.points + 3 * i), n = look->shell.normals[i];
-    bool behind = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n)) > 0.5;
-    bool before = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n)) > 0.5;
+    bool behind = spore_bvh_inside(work->tree, spore_vec3_add_scaled(p, -BESIDE, n));
+    bool before = spore_bvh_inside(work->tree, spore_vec3_add_scaled(p, BESIDE, n));
     look->inner[i] = behind && before;
     look->inner_count += look->inner[i];
     none += !behind && !before;

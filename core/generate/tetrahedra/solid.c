@@ -42,8 +42,8 @@ static bool sort_samples(SporeTetrahedraWork *work, SporeError *error) {
     if (i % SAMPLES_A_REPORT == 0)
       done = spore_tetrahedra_progress(work, 0.5 * (double)i / SAMPLES, _("looking at the surface"), error);
     SporeVec3 p = spore_vec3_load(points + 3 * i), n = normal_of(&work->surface, triangles[i]);
-    bool behind = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, -BESIDE, n)) > 0.5;
-    bool before = spore_bvh_winding(work->tree, spore_vec3_add_scaled(p, BESIDE, n)) > 0.5;
+    bool behind = spore_bvh_inside(work->tree, spore_vec3_add_scaled(p, -BESIDE, n));
+    bool before = spore_bvh_inside(work->tree, spore_vec3_add_scaled(p, BESIDE, n));
     if (behind != before) spore_vec3_store(work->bounding + 3 * work->bounding_count++, p);
     else if (behind) spore_vec3_store(work->inner + 3 * work->inner_count++, p);
   }

@@ -43,7 +43,7 @@ static void note_necks(SporeTetrahedraWork *work, const SporeBvh *cells) {
     double gap = spore_bvh_distance(thin->wall_tree, p, NULL, NULL);
     if (!(gap > 0) || gap > NECK * work->options.tolerance) continue;
     double distance = spore_bvh_distance(cells, p, NULL, NULL);
-    if (distance > NECK_MISSED * work->options.tolerance && spore_bvh_winding(cells, p) < 0.5)
+    if (distance > NECK_MISSED * work->options.tolerance && !spore_bvh_inside(cells, p))
       spore_vec3_store(thin->walls + 3 * thin->wall_count++, p);
   }
 }
@@ -60,7 +60,7 @@ static double note_missed(SporeTetrahedraWork *work, const SporeBvh *cells) {
     double distance = cells ? spore_bvh_distance(cells, p, NULL, NULL) : 1;
     if (distance < MISSED * work->options.tolerance) continue;
     farthest = fmax(farthest, distance);
-    bool slit = cells && spore_bvh_winding(cells, p) > 0.5;
+    bool slit = cells && spore_bvh_inside(cells, p);
     if (is_of(slit ? thin->slit_tree : thin->wall_tree, p)) continue;
     if (slit) spore_vec3_store(thin->slits + 3 * thin->slit_count++, p);
     else spore_vec3_store(thin->walls + 3 * thin->wall_count++, p);
