@@ -50,6 +50,14 @@ static void bound_points(const SporePoints *points, size_t first, size_t end, do
   bound[3] = radius;
 }
 
+/* The block's points relative to its middle. */
+static void load_local(SporePoints *points, size_t b) {
+  const double *middle = points->block + 4 * b, *columns[3] = {points->x, points->y, points->z};
+  for (size_t k = 0; k < 3; k++)
+    for (size_t i = 0; i < SPORE_BLOCK; i++)
+      points->local[SPORE_BLOCK * (3 * b + k) + i] = (float)(columns[k][b * SPORE_BLOCK + i] - middle[k]);
+}
+
 bool spore_points_create(SporePoints *points, const double *xyz, size_t count) {
   size_t blocks = (count + SPORE_BLOCK - 1) / SPORE_BLOCK, padded = blocks * SPORE_BLOCK;
   size_t groups = (blocks + SPORE_GROUP - 1) / SPORE_GROUP, wide = SPORE_GROUP * SPORE_BLOCK;
@@ -61,9 +69,10 @@ bool spore_points_create(SporePoints *points, const double *xyz, size_t count) {
                           .z = SPORE_NEW_ARRAY(double, padded),
                           .block = SPORE_NEW_ARRAY(double, 4 * blocks),
                           .group = SPORE_NEW_ARRAY(double, 4 * groups),
+                          .local = SPORE_NEW_ARRAY(float, 3 * padded),
                           .original = SPORE_NEW_ARRAY(uint32_t, count)};
-  if (!points->x || !points->y || !points->z || !points->block || !points->group || !points->original ||
-      !morton_order(xyz, count, points->original)) {
+  if (!points->x || !points->y || !points->z || !points->block || !points->group || !points->local ||
+      !points->original || !morton_order(xyz, count, points->original)) {
     spore_points_clear(points);
     return false;
   }
@@ -71,8 +80,10 @@ bool spore_points_create(SporePoints *points, const double *xyz, size_t count) {
     const double *p = xyz + 3 * (size_t)points->original[i < count ? i : count - 1];
     points->x[i] = p[0], points->y[i] = p[1], points->z[i] = p[2];
   }
-  for (size_t b = 0; b < blocks; b++)
+  for (size_t b = 0; b < blocks; b++) {
     bound_points(points, b * SPORE_BLOCK, (b + 1) * SPORE_BLOCK, points->block + 4 * b);
+    load_local(points, b);
+  }
   for (size_t g = 0; g < groups; g++)
     bound_points(points, g * wide, (g + 1) * wide < padded ? (g + 1) * wide : padded, points->group + 4 * g);
   return true;
@@ -84,6 +95,7 @@ void spore_points_clear(SporePoints *points) {
   spore_free(points->z);
   spore_free(points->block);
   spore_free(points->group);
+  spore_free(points->local);
   spore_free(points->original);
   *points = (SporePoints){0};
 }
@@ -110,11 +122,12 @@ bool spore_field_create(SporeField *field, const SporePoints *points, size_t bal
                         .second = SPORE_NEW_ARRAY(double, padded),
                         .owner = SPORE_NEW_ARRAY(uint32_t, padded),
                         .value = SPORE_NEW_ARRAY(double, ball_count),
-                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count),
+                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count + 1),
+                        .listed = SPORE_NEW_ARRAY(uint32_t, ball_count + 1),
                         .local = SPORE_NEW_ARRAY(float, 5 * ball_count),
                         .capacity = ball_count};
   if (spore_balls_create(&field->near, ball_count) && field->best && field->second && field->owner && field->value &&
-      field->number && field->local)
+      field->number && field->listed && field->local)
     return true;
   spore_field_clear(field);
   return false;
@@ -126,58 +139,57 @@ void spore_field_clear(SporeField *field) {
   spore_free(field->owner);
   spore_free(field->value);
   spore_free(field->number);
+  spore_free(field->listed);
   spore_free(field->local);
   spore_balls_clear(&field->near);
   *field = (SporeField){0};
 }
 
-/* r_i - distance from p; returns the second largest (the largest when there is one ball). */
 static double ball_values(const SporeBalls *balls, const double p[3], double *values) {
-  double x = p[0], y = p[1], z = p[2], first = -HUGE_VAL, second = -HUGE_VAL;
-  for (size_t i = 0; i < balls->count; i++) {
-    double dx = balls->x[i] - x, dy = balls->y[i] - y, dz = balls->z[i] - z;
-    values[i] = balls->r[i] - sqrt(dx * dx + dy * dy + dz * dz);
+  return SPORE_KERNEL(spore_balls_values)(balls->x, balls->y, balls->z, balls->r, balls->count, p, values);
+}
+
+/* The numbers of the values that are at least `least`; returns how many. Without a branch, as which ones are is hard to
+ * foretell. */
+static size_t list_near(const double *value, size_t count, double least, uint32_t *list) {
+  size_t near = 0;
+  for (size_t i = 0; i < count; i++) {
+    list[near] = (uint32_t)i;
+    near += value[i] >= least;
   }
-  for (size_t i = 0; i < balls->count; i++) {
-    double v = values[i];
-    if (v <= second) continue;
-    second = v > first ? first : v;
-    first = v > first ? v : first;
-  }
-  return balls->count > 1 ? second : first;
+  return near;
 }
 
 /* Gathers the balls whose value at the middle of the group is at least `least`. */
 static void gather_near(SporeField *field, const SporeBalls *balls, double least) {
-  size_t near = 0;
-  for (size_t i = 0; i < balls->count; i++) {
-    if (field->value[i] < least) continue;
-    field->near.x[near] = balls->x[i], field->near.y[near] = balls->y[i], field->near.z[near] = balls->z[i];
-    field->near.r[near] = balls->r[i];
-    field->number[near++] = (uint32_t)i;
+  SporeBalls *near = &field->near;
+  near->count = list_near(field->value, balls->count, least, field->number);
+  for (size_t n = 0; n < near->count; n++) {
+    uint32_t i = field->number[n];
+    near->x[n] = balls->x[i], near->y[n] = balls->y[i], near->z[n] = balls->z[i], near->r[n] = balls->r[i];
   }
-  field->near.count = near;
 }
 
 /* Evaluates the near balls at the block's points, relative to the block's middle, in single precision. */
 static void evaluate_block(SporeField *field, const SporePoints *points, size_t b, double least) {
-  const double *middle = points->block + 4 * b, *columns[3] = {points->x, points->y, points->z};
+  const double *middle = points->block + 4 * b;
+  const float *local = points->local + 3 * SPORE_BLOCK * b;
   const SporeBalls *balls = &field->near;
-  float local[3][SPORE_BLOCK], best[SPORE_BLOCK], second[SPORE_BLOCK], owner[SPORE_BLOCK];
-  float *x = field->local, *y = x + field->capacity, *z = y + field->capacity, *r = z + field->capacity;
-  SporeNearBalls near = {0, x, y, z, r, r + field->capacity};
-  for (int k = 0; k < 3; k++)
-    for (int i = 0; i < SPORE_BLOCK; i++) local[k][i] = (float)(columns[k][b * SPORE_BLOCK + i] - middle[k]);
-  for (size_t i = 0; i < balls->count; i++) {
-    if (field->value[i] < least) continue;
-    x[near.count] = (float)(balls->x[i] - middle[0]), y[near.count] = (float)(balls->y[i] - middle[1]);
-    z[near.count] = (float)(balls->z[i] - middle[2]), r[near.count] = (float)balls->r[i];
-    r[field->capacity + near.count++] = (float)field->number[i];
+  float best[SPORE_BLOCK], second[SPORE_BLOCK], owner[SPORE_BLOCK];
+  float *x = field->local, *y = x + field->capacity, *z = y + field->capacity, *r = z + field->capacity,
+        *number = r + field->capacity;
+  SporeNearBalls near = {list_near(field->value, balls->count, least, field->listed), x, y, z, r, number};
+  for (size_t n = 0; n < near.count; n++) {
+    uint32_t i = field->listed[n];
+    x[n] = (float)(balls->x[i] - middle[0]), y[n] = (float)(balls->y[i] - middle[1]);
+    z[n] = (float)(balls->z[i] - middle[2]), r[n] = (float)balls->r[i];
+    number[n] = (float)(int32_t)field->number[i];
   }
-  SPORE_KERNEL(spore_field_block)(&near, local[0], local[1], local[2], best, second, owner);
+  SPORE_KERNEL(spore_field_block)
+  (&near, local, local + SPORE_BLOCK, local + 2 * SPORE_BLOCK, best, second, owner);
   for (size_t k = 0, at = b * SPORE_BLOCK; k < SPORE_BLOCK; k++, at++) {
     field->best[at] = (double)best[k], field->second[at] = (double)second[k];
-    field->owner[at] = (uint32_t)owner[k];
+    field->owner[at] = (uint32_t)(int32_t)owner[k];
   }
 }
 

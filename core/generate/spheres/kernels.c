@@ -28,6 +28,34 @@ void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const floa
   }
 }
 
+/* The two largest of the values, lane by lane. */
+static void add_values(const double *values, size_t lanes, double *restrict first, double *restrict second) {
+  for (size_t k = 0; k < lanes; k++) {
+    double value = values[k], before = first[k], lower = value < before ? value : before;
+    second[k] = lower > second[k] ? lower : second[k];
+    first[k] = value > before ? value : before;
+  }
+}
+
+double SPORE_LEVEL_NAME(spore_balls_values)(const double *x, const double *y, const double *z, const double *r,
+                                            size_t count, const double at[3], double *restrict values) {
+  double ax = at[0], ay = at[1], az = at[2], first[SPORE_LANES], second[SPORE_LANES], most = -HUGE_VAL,
+         next = -HUGE_VAL;
+  size_t whole = count / SPORE_LANES * SPORE_LANES;
+  for (size_t i = 0; i < count; i++) {
+    double dx = x[i] - ax, dy = y[i] - ay, dz = z[i] - az;
+    values[i] = r[i] - sqrt(dx * dx + dy * dy + dz * dz);
+  }
+  for (int k = 0; k < SPORE_LANES; k++) first[k] = second[k] = -HUGE_VAL;
+  for (size_t i = 0; i < whole; i += SPORE_LANES) add_values(values + i, SPORE_LANES, first, second);
+  add_values(values + whole, count - whole, first, second);
+  for (int k = 0; k < SPORE_LANES; k++) {
+    add_values(first + k, 1, &most, &next);
+    add_values(second + k, 1, &most, &next);
+  }
+  return count > 1 ? next : most;
+}
+
 uint32_t SPORE_LEVEL_NAME(spore_block_between)(const double *x, const double *y, const double *z, const double at[3],
                                                double inner, double outer) {
   double square[SPORE_BLOCK];

@@ -18,6 +18,10 @@ typedef struct SporeNearBalls {
 SPORE_DECLARE_KERNEL(void, spore_field_block, const SporeNearBalls *balls, const float *x, const float *y,
                      const float *z, float *best, float *second, float *owner);
 
+/* values[i]: r_i - distance from `at`. Returns the second largest (the largest when there is one ball). */
+SPORE_DECLARE_KERNEL(double, spore_balls_values, const double *x, const double *y, const double *z, const double *r,
+                     size_t count, const double at[3], double *values);
+
 /* Bit k: point k of the SPORE_BLOCK points x, y, z has a squared distance from `at` in [inner, outer]. */
 SPORE_DECLARE_KERNEL(uint32_t, spore_block_between, const double *x, const double *y, const double *z,
                      const double at[3], double inner, double outer);

@@ -13,6 +13,7 @@ typedef struct SporePoints {
   double *x, *y, *z;  /* count, padded to whole blocks with the last point */
   double *block;      /* block_count x 4: centre and radius */
   double *group;      /* group_count x 4: centre and radius */
+  float *local;       /* block_count x 3 x SPORE_BLOCK: columns relative to the block's middle */
   uint32_t *original; /* count: number before sorting */
 } SporePoints;
 bool spore_points_create(SporePoints *points, const double *xyz, size_t count);
@@ -42,7 +43,8 @@ typedef struct SporeField {
   uint32_t *owner;
   double *value;    /* scratch, balls */
   SporeBalls near;  /* scratch: the balls that may own a point of a group */
-  uint32_t *number; /* balls: indices of the near balls */
+  uint32_t *number; /* balls + 1: indices of the near balls */
+  uint32_t *listed; /* scratch, balls + 1: which of the near balls may own a point of a block */
   float *local;     /* scratch: 5 columns of `capacity` */
   size_t capacity;  /* balls */
 } SporeField;
