@@ -242,6 +242,7 @@ static bool collapse(Collapser *work, const Candidate *candidate) {
   }
   if (work->limit.limit && !spore_shell_limit_allows(&work->limit, shell, a, b, x)) return true;
   if (!work->crossing && spore_shell_would_cross(&work->near, shell, a, b, x)) return true;
+  if (!work->crossing) spore_shell_neighbours_drop(&work->near, shell, a, b);
   spore_shell_collapse(shell, a, b, x);
   if (work->limit.limit) spore_shell_limit_moved(&work->limit, shell, a);
   if (!work->crossing && !spore_shell_neighbours_add_ring(&work->near, shell, a)) return false;

@@ -6,7 +6,7 @@
 #include "core/base/memory.h"
 #include "core/mesh/simplify_parts.h"
 
-#define MOST_CELLS 128 /* a side */
+#define MOST_CELLS 256 /* a side */
 #define MOST_RING 32   /* triangles looked at together */
 #define NONE UINT32_MAX
 
@@ -14,8 +14,8 @@ bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell 
   size_t side = (size_t)fmin(fmax(ceil(1 / edge), 1), MOST_CELLS);
   *near = (SporeShellNeighbours){.side = side};
   near->head = SPORE_NEW_ARRAY(uint32_t, side * side * side);
-  near->seen = SPORE_NEW_ARRAY(uint32_t, shell->triangle_count);
-  if (!near->head || !near->seen) return false;
+  near->triangles = SPORE_NEW_ARRAY(SporeNearTriangle, shell->triangle_count);
+  if (!near->head || !near->triangles) return false;
   memset(near->head, 0xff, side * side * side * sizeof *near->head);
   for (uint32_t t = 0; t < shell->triangle_count; t++)
     if (shell->corner[3 * (size_t)t] != SPORE_SHELL_NONE && !spore_shell_neighbours_add(near, shell, t)) return false;
@@ -24,7 +24,7 @@ bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell 
 
 void spore_shell_neighbours_clear(SporeShellNeighbours *near) {
   spore_free(near->head);
-  spore_free(near->seen);
+  spore_free(near->triangles);
   spore_free(near->entries);
   *near = (SporeShellNeighbours){0};
 }
@@ -75,12 +75,33 @@ static bool add_to_cell(SporeShellNeighbours *near, size_t cell, uint32_t triang
   return true;
 }
 
+static void set_box(SporeNearTriangle *triangle, const Box *box) {
+  for (size_t e = 0; e < 3; e++) {
+    float lower = (float)box->lower[e], upper = (float)box->upper[e];
+    triangle->lower[e] = lower > box->lower[e] ? nextafterf(lower, -HUGE_VALF) : lower;
+    triangle->upper[e] = upper < box->upper[e] ? nextafterf(upper, HUGE_VALF) : upper;
+  }
+}
+
+static bool box_meets(const Box *box, const SporeNearTriangle *triangle) {
+  for (size_t e = 0; e < 3; e++)
+    if (box->lower[e] > triangle->upper[e] || triangle->lower[e] > box->upper[e]) return false;
+  return true;
+}
+
+void spore_shell_neighbours_drop(SporeShellNeighbours *near, const SporeShell *shell, uint32_t a, uint32_t b) {
+  uint32_t corners[2];
+  size_t count = spore_shell_between(shell, a, b, corners);
+  for (size_t i = 0; i < count && i < 2; i++) near->triangles[corners[i] / 3].gone = true;
+}
+
 bool spore_shell_neighbours_add(SporeShellNeighbours *near, const SporeShell *shell, uint32_t triangle) {
   SporeVec3 p[3];
   size_t from[3], to[3];
   corners_of(shell, triangle, p);
   Box box = box_of(p);
   cells_of(near, &box, from, to);
+  set_box(&near->triangles[triangle], &box);
   for (size_t x = from[0]; x <= to[0]; x++)
     for (size_t y = from[1]; y <= to[1]; y++)
       for (size_t z = from[2]; z <= to[2]; z++)
@@ -147,15 +168,17 @@ static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, Ri
         uint32_t *link = &near->head[(x * near->side + y) * near->side + z];
         while (*link != NONE) {
           uint32_t other = near->entries[2 * (size_t)*link], *next = &near->entries[2 * (size_t)*link + 1];
-          const uint32_t *m = shell->corner + 3 * (size_t)other;
-          bool met = near->seen[other] >= first;
-          if (near->seen[other] == near->asked || m[0] == SPORE_SHELL_NONE) {
+          SporeNearTriangle *triangle = &near->triangles[other];
+          bool met = triangle->seen >= first;
+          if (triangle->seen == near->asked || triangle->gone) {
             *link = *next;
             continue;
           }
           link = next;
-          near->seen[other] = near->asked;
-          if (!met && !has(m, a) && !has(m, b) && meets_ring(shell, ring, other)) return true;
+          triangle->seen = near->asked;
+          if (met || !box_meets(&ring->whole, triangle)) continue;
+          const uint32_t *m = shell->corner + 3 * (size_t)other;
+          if (!has(m, a) && !has(m, b) && meets_ring(shell, ring, other)) return true;
         }
       }
   ring->count = 0;

@@ -19,18 +19,28 @@ static inline double spore_quadric_at(const SporeQuadric *quadric, SporeVec3 x) 
   return value > 0 ? value : 0;
 }
 
+/* A triangle near others: what is asked of it most often, together. */
+typedef struct SporeNearTriangle {
+  float lower[3], upper[3]; /* a box around it, rounded away from it */
+  uint32_t seen;            /* the last look into a cell that met it */
+  bool gone;
+} SporeNearTriangle;
+
 /* Triangles of a shell by the cells of a grid that they reach into, so that those near another are found. */
 typedef struct SporeShellNeighbours {
   size_t side;    /* cells a side, over the shell's box */
   uint32_t *head; /* first entry of each cell */
   size_t count, capacity;
   uint32_t *entries;     /* triangle, next entry: also those of before a triangle moved, or went */
-  uint32_t *seen, asked; /* of each triangle: the last look into a cell that met it */
+  SporeNearTriangle *triangles;
+  uint32_t asked; /* looks into cells so far */
 } SporeShellNeighbours;
 
 /* edge: length of an edge, as of most of the work. Clear it in either case. False: no memory. */
 bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell *shell, double edge);
 void spore_shell_neighbours_clear(SporeShellNeighbours *near);
+/* The triangles at the edge a b, which is to be collapsed. */
+void spore_shell_neighbours_drop(SporeShellNeighbours *near, const SporeShell *shell, uint32_t a, uint32_t b);
 /* A triangle that moved. */
 bool spore_shell_neighbours_add(SporeShellNeighbours *near, const SporeShell *shell, uint32_t triangle);
 /* Whether triangles around the edge a b would go through others once it is collapsed to x, and go through none now. */
