@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/collide/near_pairs.h"
 #include "core/sim/world_private.h"
 
 #define STAIN_PACE_S 16e-3
@@ -46,37 +47,72 @@ static double wide_enough(const SporeSphereSet *set, double spacing) {
   return spacing * sqrt(fmax(1, tries / BODY_MOST));
 }
 
-/* The others that sphere i meets. */
-static size_t find_beside(const SporeSphereSet *set, size_t i, uint32_t *beside) {
-  const double *sphere = set->spheres + 4 * i;
-  size_t count = 0;
-  for (size_t j = 0; j < set->count; j++) {
-    const double *other = set->spheres + 4 * j;
-    double reach = sphere[3] + other[3];
-    double x = other[0] - sphere[0], y = other[1] - sphere[1], z = other[2] - sphere[2];
-    if (j != i && x * x + y * y + z * z < reach * reach) beside[count++] = (uint32_t)j;
-  }
-  return count;
+/* The spheres that each sphere meets. */
+typedef struct Beside {
+  uint32_t *start; /* one a sphere, and one more */
+  uint32_t *other; /* of sphere i from start[i] to before start[i + 1]; NULL while the others are counted */
+} Beside;
+
+static bool add_beside(void *data, uint32_t a, uint32_t b) {
+  const Beside *beside = data;
+  if (beside->other) beside->other[beside->start[a]++] = b, beside->other[beside->start[b]++] = a;
+  else beside->start[a]++, beside->start[b]++;
+  return true;
 }
 
-static bool is_inside(const SporeSphereSet *set, const uint32_t *beside, size_t count, SporeVec3 place) {
-  for (size_t k = 0; k < count; k++) {
-    const double *other = set->spheres + 4 * (size_t)beside[k];
+/* Where each sphere's others begin, from how many it has. The sum. */
+static size_t begin_each(uint32_t *start, size_t count) {
+  size_t sum = 0;
+  for (size_t i = 0; i < count; i++) {
+    size_t own = start[i];
+    start[i] = (uint32_t)sum;
+    sum += own;
+  }
+  return sum;
+}
+
+/* Counts the others first, and then notes which they are. */
+static bool fill_beside(Beside *beside, const double *centre, const double *radius, size_t count) {
+  if (!spore_near_pairs(centre, radius, count, 1, 0, add_beside, beside)) return false;
+  beside->other = SPORE_NEW_ARRAY(uint32_t, begin_each(beside->start, count));
+  if (!beside->other || !spore_near_pairs(centre, radius, count, 1, 0, add_beside, beside)) return false;
+  memmove(beside->start + 1, beside->start, count * sizeof *beside->start); /* each has come to the next one's start */
+  beside->start[0] = 0;
+  return true;
+}
+
+static bool find_beside(Beside *beside, const SporeSphereSet *set) {
+  double *centre = SPORE_NEW_ARRAY(double, 3 * set->count), *radius = SPORE_NEW_ARRAY(double, set->count);
+  beside->start = SPORE_NEW_ARRAY(uint32_t, set->count + 1);
+  bool room = centre && radius && beside->start;
+  for (size_t i = 0; room && i < set->count; i++) {
+    memcpy(centre + 3 * i, set->spheres + 4 * i, 3 * sizeof *centre);
+    radius[i] = set->spheres[4 * i + 3];
+  }
+  bool found = room && fill_beside(beside, centre, radius, set->count);
+  spore_free(centre);
+  spore_free(radius);
+  return found;
+}
+
+static bool is_inside(const SporeSphereSet *set, const Beside *beside, size_t i, SporeVec3 place) {
+  for (uint32_t k = beside->start[i]; k < beside->start[i + 1]; k++) {
+    const double *other = set->spheres + 4 * (size_t)beside->other[k];
     if (spore_vec3_distance(spore_vec3_load(other), place) < INSIDE * other[3]) return true;
   }
   return false;
 }
 
 /* Lays places on all spheres: counts them, and keeps them where there is room. */
-static void lay(SporeStainUnit *unit, const SporeSphereSet *set, double spacing, uint32_t *beside) {
+static void lay(SporeStainUnit *unit, const SporeSphereSet *set, double spacing, const Beside *beside) {
   size_t count = 0;
   for (size_t i = 0; i < set->count; i++) {
     const double *sphere = set->spheres + 4 * i;
-    size_t n = tries_on(sphere, spacing), met = find_beside(set, i, beside);
+    size_t n = tries_on(sphere, spacing);
     unit->first[i] = (uint32_t)count;
     for (size_t k = 0; k < n; k++) {
       SporeVec3 place = on_sphere(sphere, k, n);
-      if (is_inside(set, beside, met, place)) continue;
+      if (is_inside(set, beside, i, place)) continue;
       if (unit->rest) spore_vec3_store(unit->rest + 3 * count, place);
       count++;
     }
@@ -86,16 +122,17 @@ static void lay(SporeStainUnit *unit, const SporeSphereSet *set, double spacing,
 }
 
 static bool lay_places(SporeStainUnit *unit, const SporeSphereSet *set, double spacing) {
-  uint32_t *beside = SPORE_NEW_ARRAY(uint32_t, set->count);
+  Beside beside = {0};
   unit->first = SPORE_NEW_ARRAY(uint32_t, set->count + 1);
-  bool made = beside && unit->first;
+  bool made = unit->first && find_beside(&beside, set);
   if (made) {
-    lay(unit, set, spacing, beside);
+    lay(unit, set, spacing, &beside);
     unit->rest = SPORE_NEW_ARRAY(double, 3 * unit->count);
     made = unit->rest != NULL;
   }
-  if (made) lay(unit, set, spacing, beside);
-  spore_free(beside);
+  if (made) lay(unit, set, spacing, &beside);
+  spore_free(beside.start);
+  spore_free(beside.other);
   return made;
 }
 
