@@ -30,6 +30,7 @@ static const struct {
     {"win.import-dialog", {"<Control>i"}},
     {"win.new", {"<Control>n"}},
     {"win.undo", {"<Control>z"}},
+    {"win.duplicate", {"<Control>d"}},
     {"win.redo", {"<Control><Shift>z", "<Control>y"}},
     {"win.play-pause", {"F5"}},
     {"win.present", {"F11"}},

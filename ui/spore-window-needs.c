@@ -104,6 +104,7 @@ static const struct {
     {"gizmo", BODY},
     {"align", BODY},
     {"mirror", BODY},
+    {"duplicate", BODY},
     {"tie-link", LINK},
     {"lead", HANDS},
     {"lead-next", HANDS},

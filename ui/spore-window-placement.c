@@ -1,4 +1,4 @@
-/* Moving, turning, scaling and aligning what is selected. */
+/* Moving, turning, scaling, aligning and copying what is selected. */
 #include "core/author/mirror_edits.h"
 #include "core/author/placement.h"
 #include "ui/spore-window-private.h"
@@ -50,8 +50,21 @@ static void act_mirror(GSimpleAction *action, GVariant *parameter, gpointer data
   else spore_window_failed(self, error);
 }
 
+static void act_duplicate(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  g_autoptr(GError) error = NULL;
+  if (!bodies->len || !spore_window_may_edit(self)) return;
+  g_autoptr(GPtrArray) copies = spore_edit_copy(document, bodies, spore_copy_offset(document, bodies), &error);
+  if (copies) spore_window_select(self, copies);
+  else spore_window_failed(self, error);
+}
+
 void spore_window_add_placement_actions(SporeWindow *self) {
-  static const GActionEntry actions[] = {
-      {"gizmo", NULL, "s", "'none'", change_gizmo}, {"align", act_align, "s"}, {"mirror", act_mirror, "s"}};
+  static const GActionEntry actions[] = {{"gizmo", NULL, "s", "'none'", change_gizmo},
+                                         {"align", act_align, "s"},
+                                         {"mirror", act_mirror, "s"},
+                                         {"duplicate", act_duplicate}};
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

@@ -19,7 +19,8 @@
  *               add-link [s element], tie-link (the selected one), pick-back, pick-done,
  *               patient [s position; state, "": none], gizmo [s "none", "move", "turn" or "scale"; state] (of what is
  *               selected), align [s "x-least", "y-middle", "z-greatest" or the like] (the others with the first),
- *               mirror [s "x-scene", "y-own" or the like] (a copy of the selected body, in the middle of either)
+ *               mirror [s "x-scene", "y-own" or the like] (a copy of the selected body, in the middle of either),
+ *               duplicate (the selected bodies)
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
  *               automatic-places; apply-generated, cancel-job

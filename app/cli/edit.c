@@ -20,7 +20,8 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **instrument, **port, *patient, *output;
+  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port, *patient,
+      *output;
   SporeCliPlacing placing;
   gboolean probe;
 } Request;
@@ -217,6 +218,23 @@ static gboolean mirror_all(SporeDocument *document, char **texts, GPtrArray *cha
   return TRUE;
 }
 
+/* BODY or BODY=X,Y,Z */
+static gboolean copy(SporeDocument *document, const char *text, GPtrArray *changed, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, "=", 2);
+  SporeVec3 offset;
+  g_autoptr(GPtrArray) bodies = g_ptr_array_new();
+  SporeObject *body = spore_cli_find_body(document, "--copy", parts[0] ? parts[0] : "", error);
+  if (!body) return FALSE;
+  g_ptr_array_add(bodies, body);
+  if (!parts[1]) offset = spore_copy_offset(document, bodies);
+  else if (!spore_place_parse(parts[1], &offset))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                             _("this is no body and a way; expected BODY=X,Y,Z in metres, such as liver=0.01,0,0"));
+  g_autoptr(GPtrArray) copies = spore_edit_copy(document, bodies, offset, error);
+  if (copies) note(changed, copies->pdata[0]);
+  return copies != NULL;
+}
+
 /* PORT@PLACE */
 static SporeObject *move_port(SporeDocument *document, const char *text, GError **error) {
   g_auto(GStrv) parts = g_strsplit(text, "@", 2);
@@ -263,6 +281,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     note(changed, added);
   }
   if (!mirror_all(document, request->mirror, changed, error)) return FALSE;
+  for (char **text = request->copy; text && *text; text++)
+    if (!copy(document, *text, changed, error)) return FALSE;
   if (!add_fluids(document, request->fluid, changed, error)) return FALSE;
   for (char **text = request->port; text && *text; text++) {
     SporeObject *moved = move_port(document, *text, error);
@@ -355,6 +375,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "scene: "
           "BODY=x, BODY=y, BODY=z (may be repeated)"),
        "BODY=AXIS"},
+      {"copy", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.copy,
+       N_("Add a copy of an organ, with what ties it to the scene, beside it or so much farther, m: BODY, BODY=X,Y,Z "
+          "(may "
+          "be repeated)"),
+       "BODY=X,Y,Z"},
       {"fluid", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.fluid,
        N_("Add a fluid at a place of an organ, m, after its instruments: KIND@X,Y,Z or KIND:NAME@X,Y,Z; bleeding, "
           "wound (bleeds from a "
@@ -389,13 +414,14 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.delete || request.add || request.soft || request.level || request.set || request.patient ||
-                 request.hold || request.instrument || request.fluid || request.mirror || request.port ||
-                 request.placing.move || request.placing.turn || request.placing.scale || request.placing.align ||
-                 request.probe;
+                 request.hold || request.instrument || request.fluid || request.mirror || request.copy ||
+                 request.port || request.placing.move || request.placing.turn || request.placing.scale ||
+                 request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --delete, --add, --soft, --level, --set, --patient, --hold, "
-          "--instrument, --mirror, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of them"));
+          "--instrument, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of "
+          "them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);
@@ -406,6 +432,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.hold);
   g_strfreev(request.fluid);
   g_strfreev(request.mirror);
+  g_strfreev(request.copy);
   g_strfreev(request.instrument);
   g_strfreev(request.port);
   g_strfreev(request.placing.move);

@@ -1,5 +1,5 @@
-/* Mirrors bodies. Where a point p of the body's frame is at R p + t, its image is at (M R M)(M p) + M t, with M the
- * mirror: so the copy's assets are mirrored in the body's frame, and its frame turns the other way. */
+/* Copies bodies, plain or mirrored. Where a point p of the body's frame is at R p + t, its image is at (M R M)(M p) + M
+ * t, with M the mirror: so the copy's assets are mirrored in the body's frame, and its frame turns the other way. */
 #include "core/author/mirror_edits.h"
 
 #include <glib/gi18n.h>
@@ -14,24 +14,33 @@
 typedef struct Mirror {
   SporeDocument *document;
   SporeObject *body, *copy;
-  int axis;
+  int axis; /* NONE: a plain copy, which shares its assets */
   double at;
+  SporeVec3 offset; /* of a plain copy, m */
 } Mirror;
+
+#define NONE (-1)
+#define BESIDE 1.1        /* of the width of what is copied */
+#define LEAST_BESIDE 0.01 /* m */
 
 /* Values. */
 
 static SporeVec3 flipped(const Mirror *mirror, SporeVec3 v) {
   double component[3];
+  if (mirror->axis == NONE) return v;
   spore_vec3_store(component, v);
   component[mirror->axis] = -component[mirror->axis];
   return spore_vec3_load(component);
 }
 
 /* Of what has a sense of turning. */
-static SporeVec3 flipped_turn(const Mirror *mirror, SporeVec3 v) { return spore_vec3_scale(-1, flipped(mirror, v)); }
+static SporeVec3 flipped_turn(const Mirror *mirror, SporeVec3 v) {
+  return mirror->axis == NONE ? v : spore_vec3_scale(-1, flipped(mirror, v));
+}
 
 static SporeVec3 image(const Mirror *mirror, SporeVec3 place) {
   double component[3];
+  if (mirror->axis == NONE) return spore_vec3_add(place, mirror->offset);
   spore_vec3_store(component, place);
   component[mirror->axis] = 2 * mirror->at - component[mirror->axis];
   return spore_vec3_load(component);
@@ -39,9 +48,10 @@ static SporeVec3 image(const Mirror *mirror, SporeVec3 place) {
 
 /* Assets. */
 
-/* "left" becomes "right", and the other way round; else what is added says it. g_free. */
-static char *name_of_image(const char *name) {
+/* "left" becomes "right", and the other way round; else what is added says it. A plain copy gets a number. g_free. */
+static char *name_of_image(const Mirror *mirror, const char *name) {
   static const char *const sides[][2] = {{"left", "right"}, {"right", "left"}};
+  if (mirror->axis == NONE) return g_strdup(name);
   for (gsize i = 0; i < G_N_ELEMENTS(sides); i++) {
     const char *found = strstr(name, sides[i][0]);
     if (found) return g_strdup_printf("%.*s%s%s", (int)(found - name), name, sides[i][1], found + strlen(sides[i][0]));
@@ -53,9 +63,10 @@ static SporeObject *mirror_asset(const Mirror *mirror, SporeObject *asset, GErro
   gsize size;
   const char *extension;
   double factors[3] = {1, 1, 1};
+  if (mirror->axis == NONE) return asset;
   factors[mirror->axis] = -1;
   char *text = spore_asset_stretched(mirror->document, asset, factors, &extension, &size, error);
-  g_autofree char *name = name_of_image(spore_object_name(asset));
+  g_autofree char *name = name_of_image(mirror, spore_object_name(asset));
   return text ? spore_edit_put_asset(mirror->document, spore_object_type(asset)->element, name, extension, text, size,
                                      error)
               : NULL;
@@ -137,7 +148,7 @@ static gboolean is_own_link(const Mirror *mirror, const SporeObject *link) {
 
 static gboolean copy_link(const Mirror *mirror, const SporeObject *link, GError **error) {
   const SporeObjectType *type = spore_object_type(link);
-  g_autofree char *name = name_of_image(spore_object_name(link));
+  g_autofree char *name = name_of_image(mirror, spore_object_name(link));
   SporeObject *copy =
       spore_document_insert(mirror->document, spore_object_parent(link), type->element, name, G_MAXUINT, error);
   for (guint i = 0; copy && i < type->table->count; i++) {
@@ -165,20 +176,51 @@ static gboolean copy_links(const Mirror *mirror, GError **error) {
   return TRUE;
 }
 
-SporeObject *spore_edit_mirror(SporeDocument *document, SporeObject *body, int axis, double at, GError **error) {
-  Mirror mirror = {.document = document, .body = body, .axis = axis, .at = at};
+static SporeObject *copy_body(Mirror *mirror, GError **error) {
+  const SporeObject *body = mirror->body;
   if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) {
     spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(body), "%s",
-                      _("an instrument is not mirrored; add another one from the library"));
+                      mirror->axis == NONE ? _("an instrument is not copied; add another one from the library")
+                                           : _("an instrument is not mirrored; add another one from the library"));
     return NULL;
   }
-  g_autofree char *name = name_of_image(spore_object_name(body));
+  g_autofree char *name = name_of_image(mirror, spore_object_name(body));
+  mirror->copy = spore_document_insert(mirror->document, spore_object_parent(body), "body", name, G_MAXUINT, error);
+  gboolean done = mirror->copy && copy_values(mirror, body, mirror->copy, error) &&
+                  copy_children(mirror, body, mirror->copy, error) && place_copy(mirror, error) &&
+                  copy_links(mirror, error);
+  return done ? mirror->copy : NULL;
+}
+
+SporeObject *spore_edit_mirror(SporeDocument *document, SporeObject *body, int axis, double at, GError **error) {
+  Mirror mirror = {.document = document, .body = body, .axis = axis, .at = at};
   spore_document_begin(document, _("Mirror"));
-  mirror.copy = spore_document_insert(document, spore_object_parent(body), "body", name, G_MAXUINT, error);
-  gboolean done = mirror.copy && copy_values(&mirror, body, mirror.copy, error) &&
-                  copy_children(&mirror, body, mirror.copy, error) && place_copy(&mirror, error) &&
-                  copy_links(&mirror, error);
-  return spore_edit_finish(document, done) ? mirror.copy : NULL;
+  SporeObject *copy = copy_body(&mirror, error);
+  return spore_edit_finish(document, copy != NULL) ? copy : NULL;
+}
+
+SporeVec3 spore_copy_offset(SporeDocument *document, const GPtrArray *bodies) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (guint i = 0; i < bodies->len; i++) {
+    double lower[3], upper[3];
+    spore_body_box(document, bodies->pdata[i], lower, upper);
+    least = fmin(least, lower[0]);
+    most = fmax(most, upper[0]);
+  }
+  return (SporeVec3){fmax(BESIDE * (most - least), LEAST_BESIDE), 0, 0};
+}
+
+GPtrArray *spore_edit_copy(SporeDocument *document, const GPtrArray *bodies, SporeVec3 offset, GError **error) {
+  g_autoptr(GPtrArray) copies = g_ptr_array_new();
+  gboolean done = TRUE;
+  spore_document_begin(document, _("Copy"));
+  for (guint i = 0; done && i < bodies->len; i++) {
+    Mirror mirror = {.document = document, .body = bodies->pdata[i], .axis = NONE, .offset = offset};
+    SporeObject *copy = copy_body(&mirror, error);
+    if (copy) g_ptr_array_add(copies, copy);
+    done = copy != NULL;
+  }
+  return spore_edit_finish(document, done) ? g_steal_pointer(&copies) : NULL;
 }
 
 double spore_scene_middle(SporeDocument *document, int axis) {

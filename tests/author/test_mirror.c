@@ -78,9 +78,44 @@ static void test_middle(void) {
   fixture_scene_free(&scene);
 }
 
+/* A plain copy stands beside with the meshes of the body, and with a pin and its point of its own. */
+static void test_copy(void) {
+  FixtureScene scene = fixture_scene_new(organs);
+  g_autofree char *before = fixture_format(scene.document);
+  g_autoptr(GPtrArray) bodies = g_ptr_array_new();
+  g_autoptr(GError) failure = NULL;
+  GError *error = NULL;
+  SporeObject *body = spore_document_find(scene.document, "body", "ovary_left");
+  g_ptr_array_add(bodies, body);
+  double lower[3], upper[3];
+  spore_body_box(scene.document, body, lower, upper);
+  SporeVec3 offset = spore_copy_offset(scene.document, bodies);
+  g_assert_cmpfloat(offset.x, >, upper[0] - lower[0]);
+  g_autoptr(GPtrArray) copies = spore_edit_copy(scene.document, bodies, offset, &failure);
+  g_assert_no_error(failure);
+  SporeObject *copy = copies->pdata[0];
+  g_assert_cmpstr(spore_object_name(copy), ==, "ovary_left-2");
+  for (gsize i = 0; i < 4; i++)
+    g_assert_cmpfloat(spore_vec3_distance(vertex(&scene, copy, i), spore_vec3_add(vertex(&scene, body, i), offset)), <,
+                      1e-9);
+  SporeObject *pin = spore_document_find(scene.document, "pin", "hold_left-2");
+  g_assert_cmpstr(spore_object_text(pin, "body"), ==, "ovary_left-2");
+  g_assert_cmpfloat_with_epsilon(spore_object_vector(pin, "point").x, 0.31 + offset.x, 1e-12);
+  g_assert_cmpuint(spore_object_child_count(spore_document_section(scene.document, "links")), ==, 3);
+  g_assert_cmpuint(spore_object_child_count(spore_document_section(scene.document, "assets")), ==, 3);
+  spore_document_undo(scene.document);
+  bodies->pdata[0] = spore_document_find(scene.document, "body", "probe");
+  g_assert_null(spore_edit_copy(scene.document, bodies, offset, &error));
+  fixture_assert_error(error, SPORE_ERROR_INPUT, "an instrument is not copied");
+  g_autofree char *after = fixture_format(scene.document);
+  g_assert_cmpstr(after, ==, before);
+  fixture_scene_free(&scene);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/mirror/image", test_image);
   g_test_add_func("/mirror/middle", test_middle);
+  g_test_add_func("/mirror/copy", test_copy);
   return g_test_run();
 }

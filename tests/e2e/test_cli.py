@@ -1633,6 +1633,9 @@ def bodies_are_moved_turned_scaled_and_aligned():
     assert "felt-2" in at.read_text(), "the spheres of the block stay"
     assert not report("run", at, "--steps", 5)["monitor"]["unsolved"]
     before = at.read_text()
+    assert report("edit", at, "--copy", "bar=0,0,0.05", "-o", bar.with_name("copied.spore"))["changed"] == ["bodies/bar-2"]
+    assert 'name="end_0-2" body="bar-2"' in bar.with_name("copied.spore").read_text()
+    refuses("edit", at, "--copy", "bar=0,0", says=["expected BODY=X,Y,Z in metres"])
     refuses("edit", at, "--scale", "bar=0", says=["no factor to scale by"])
     refuses("edit", at, "--scale", "bar=big", says=["expected BODY=FACTOR"])
     refuses("edit", at, "--move", "bar=0.01,0", says=["expected BODY=X,Y,Z in metres"])

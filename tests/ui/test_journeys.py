@@ -2501,6 +2501,12 @@ def moved_by_the_gizmo():
         root = xml.etree.ElementTree.fromstring(saved(editor, "gizmo"))
         assert vector(root.find("bodies/body[@name='right-2']").get("position")) == [0.035, 0, 0]
         assert len(root.findall("links/spring")) == 2, "the cord is mirrored, too"
+        editor.act("undo")
+        editor.act("select", "s", "bodies/left")
+        editor.keys("ctrl+d")
+        ui.wait(lambda: editor.row("left-2"), "a plain copy")
+        root = xml.etree.ElementTree.fromstring(saved(editor, "gizmo"))
+        assert vector(root.find("bodies/body[@name='left-2']").get("position"))[0] > 0.02 and len(root.findall("links/spring")) == 2
 
 
 INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),

@@ -60,6 +60,7 @@ static GMenu *menu_of_body(SporeViewport *self) {
   g_menu_append(menu, _("Hide"), "win.hide");
   g_menu_append(menu, _("Show only this"), "win.isolate");
   g_menu_append(menu, _("Show all"), "win.show-all");
+  g_menu_append(menu, _("Copy beside it"), "win.duplicate");
   g_menu_append(menu, _("Rename…"), "win.rename-dialog");
   g_menu_append(menu, _("Delete"), "win.delete");
   return menu;
