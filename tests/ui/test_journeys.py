@@ -3042,6 +3042,40 @@ def an_effect_takes_the_place_of_physics():
         assert not editor.message(), editor.message()
 
 
+def bowl_of_blood():
+    """A scene of blood that lies in a bowl of spheres."""
+    path = write_scene("blood", '<lennard_jones particles="60" temperature="0.7" thermostat="200"/>')
+    ring = range(-5, 6)
+    (path.parent / "floor.spheres").write_text("".join(
+        f"{x / 50} {-0.05 + y / 50} {z / 50} 0.02\n" for x in ring for z in ring for y in range(5 if 5 in (abs(x), abs(z)) else 1)))
+    text = re.sub(r'<collision spheres="one" */>\s*<visual mesh="ball"/>', '<collision stiffness="60" damping="0.02"/>', path.read_text())
+    assert 'stiffness="60"' in text, text
+    path.write_text(text)
+    return path
+
+
+@check
+def blood_is_an_effect_and_physics_again():
+    """while blood lies in a bowl, an effect takes its place, so that physics has no contacts; undo brings physics back, redo the effect: the run goes on, without a restart."""
+    with start(bowl_of_blood()) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("show-figures")
+        editor.act("play")
+        ui.wait(lambda: editor.hud(r"Contacts ([1-9]\d*)"), "physical blood to lie on the bowl")
+        times = [editor.time_s()]
+        editor.act("set-property", "(sss)", ("bodies/ball/fidelity", "mode", "effect"))
+        for action, contacts in ((None, 0), ("undo", 1), ("redo", 0)):
+            if action:
+                ui.wait(lambda: editor.enabled(action), f"{action} to be possible")
+                editor.act(action)
+            ui.wait(lambda: editor.hud(r"Contacts (\d+)") == 0 if not contacts else editor.hud(r"Contacts ([1-9]\d*)"), f"the blood after {action or 'the switch'}")
+            assert ('mode="effect"' in saved(editor, f"blood-{len(times)}")) == (contacts == 0), action
+            ui.wait(lambda: (editor.time_s() or 0) > times[-1], "the run to go on")
+            times.append(editor.time_s())
+            keep_picture(editor, f"blood-{len(times)}-{action or 'switch'}")
+        assert times == sorted(times) and not editor.message(), (times, editor.message())
+
+
 @check
 def sleep_lateness_and_trouble_are_shown():
     """what sleeps, steps that come late, and what a run had to mend are shown, the last among the problems of its body."""
