@@ -69,15 +69,24 @@ static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *
   spore_cli_close(cli);
 }
 
+/* remark: "what; remedy"; NULL: none. */
+static void report_remark(SporeCli *cli, const char *place, const char *remark) {
+  const char *remedy = remark ? strstr(remark, "; ") : NULL;
+  if (!remedy) return;
+  g_autofree char *what = g_strndup(remark, (gsize)(remedy - remark));
+  spore_cli_diagnostic(cli, place, what, remedy + 2);
+}
+
 static void report_diagnostics(SporeCli *cli, SporeDocument *document, const SporeImport *import) {
   spore_cli_open_array(cli, "diagnostics");
   for (guint i = 0; i < import->files->len; i++) {
     const SporeImportFile *file = g_ptr_array_index(import->files, i);
-    g_autofree char *remark = spore_import_remark(file), *remedy = remark ? strstr(remark, "; ") : NULL;
-    if (!remedy) continue;
-    remedy = g_strdup(remedy + 2);
-    *strstr(remark, "; ") = '\0';
-    spore_cli_diagnostic(cli, file->file, remark, remedy);
+    g_autofree char *remark = spore_import_remark(file);
+    report_remark(cli, file->file, remark);
+  }
+  for (guint i = 0; i < import->bodies->len; i++) {
+    const SporeImportBody *body = g_ptr_array_index(import->bodies, i);
+    report_remark(cli, body->name, body->untextured);
   }
   spore_cli_diagnostics(cli, document);
   spore_cli_close_array(cli);

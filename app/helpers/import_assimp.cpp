@@ -83,9 +83,17 @@ void keep_one_importer(Assimp::Importer &importer, const std::string &extension)
   for (Assimp::BaseImporter *other : others) importer.UnregisterLoader(other);
 }
 
+struct Picture {
+  const aiTexture *of;
+  std::string bytes;
+};
+
 struct Mesh {
   std::vector<double> vertices;
   std::vector<uint32_t> triangles;
+  bool placed = false;       /* the file brings pictures */
+  std::vector<float> places; /* then of each corner in its picture, from the upper left corner; 0 where it has none */
+  std::vector<Picture> pictures;
   std::vector<SporeImportPart> parts; /* of at least one triangle each */
   uint64_t in_parts = 0;              /* triangles */
   uint64_t passed_over = 0;
@@ -107,25 +115,58 @@ float to_srgb(double light) {
   return static_cast<float>(one <= 0.0031308 ? 12.92 * one : 1.055 * std::pow(one, 1 / 2.4) - 0.055);
 }
 
-/* Takes the colour of the mesh with the most faces. A mesh that names no material has the importer's own, which is the
- * last one of glTF. */
+/* The material that the file gives the mesh. A mesh that names none has the importer's own, which is the last one of
+ * glTF. */
+const aiMaterial *material_of(const aiScene &scene, const aiMesh &mesh) {
+  return mesh.mMaterialIndex + 1 < scene.mNumMaterials ? scene.mMaterials[mesh.mMaterialIndex] : nullptr;
+}
+
+/* Takes the colour of the mesh with the most faces. */
 void take_colour(const aiScene &scene, const aiNode &node, SporeImportPart &part) {
   const aiMesh *largest = nullptr;
   for (unsigned m = 0; m < node.mNumMeshes; m++) {
     const aiMesh *mesh = scene.mMeshes[node.mMeshes[m]];
     if (!largest || mesh->mNumFaces > largest->mNumFaces) largest = mesh;
   }
-  if (!largest || largest->mMaterialIndex + 1 >= scene.mNumMaterials) return;
-  const aiMaterial &material = *scene.mMaterials[largest->mMaterialIndex];
+  const aiMaterial *material = largest ? material_of(scene, *largest) : nullptr;
   aiColor4D colour;
-  if (material.GetTextureCount(aiTextureType_BASE_COLOR) || material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS)
-    return;
+  if (!material || material->Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS) return;
   const double light[3] = {colour.r, colour.g, colour.b};
   for (int k = 0; k < 3; k++) {
     if (!std::isfinite(light[k])) return;
     part.colour[k] = to_srgb(light[k]);
   }
   part.coloured = 1;
+}
+
+/* The picture in the file that the mesh wears; NULL: none, or without places. *textured: its material has one. */
+const aiTexture *picture_of(const aiScene &scene, const aiMesh &mesh, bool *textured) {
+  const aiMaterial *material = material_of(scene, mesh);
+  aiString path;
+  *textured = material && material->GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS;
+  const aiTexture *picture = *textured && mesh.HasTextureCoords(0) ? scene.GetEmbeddedTexture(path.C_Str()) : nullptr;
+  const bool fits = picture && picture->mHeight == 0 && picture->mWidth <= SPORE_IMPORT_PICTURE_BYTES;
+  return fits ? picture : nullptr;
+}
+
+/* Takes the picture that all meshes of the node wear. */
+void take_picture(const aiScene &scene, const aiNode &node, Mesh &mesh, SporeImportPart &part) {
+  const aiTexture *common = nullptr;
+  for (unsigned m = 0; m < node.mNumMeshes; m++) {
+    bool textured;
+    const aiTexture *picture = picture_of(scene, *scene.mMeshes[node.mMeshes[m]], &textured);
+    if (m > 0 && picture != common) picture = nullptr;
+    if (textured) part.textured = 1;
+    common = picture;
+    if (!picture) break;
+  }
+  if (!common) return;
+  const auto found = std::find_if(mesh.pictures.begin(), mesh.pictures.end(),
+                                  [common](const Picture &picture) { return picture.of == common; });
+  if (found == mesh.pictures.end() && mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) return;
+  part.picture = static_cast<uint32_t>(found - mesh.pictures.begin() + 1);
+  if (found == mesh.pictures.end())
+    mesh.pictures.push_back({common, std::string(reinterpret_cast<const char *>(common->pcData), common->mWidth)});
 }
 
 /* The meshes of a node differ only in material. Together they are one part. */
@@ -139,6 +180,7 @@ void end_part(const aiScene &scene, const aiNode &node, const std::string &group
   name.copy(part.name, sizeof part.name - 1);
   group.copy(part.group, sizeof part.group - 1);
   take_colour(scene, node, part);
+  take_picture(scene, node, mesh, part);
   mesh.parts.push_back(part);
 }
 
@@ -158,6 +200,9 @@ void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh)
                       "face " + std::to_string(f) + ", vertex " + std::to_string(index) + " of " +
                           std::to_string(from.mNumVertices)};
       mesh.triangles.push_back(static_cast<uint32_t>(first + index));
+      if (!mesh.placed) continue;
+      const aiVector3D place = from.HasTextureCoords(0) ? from.mTextureCoords[0][index] : aiVector3D(0, 1, 0);
+      mesh.places.insert(mesh.places.end(), {place.x, 1 - place.y}); /* the importer counts from below */
     }
   }
 }
@@ -245,6 +290,7 @@ Mesh import(const char *extension, const void *content, size_t size) {
   if (!scene)
     throw Refusal{SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"), said};
   Mesh mesh;
+  mesh.placed = scene->HasTextures();
   if (scene->mRootNode) append(*scene, *scene->mRootNode, aiMatrix4x4(), "", mesh);
   if (mesh.triangles.empty())
     throw Refusal{SPORE_ERROR_INPUT,
@@ -258,11 +304,13 @@ Mesh import(const char *extension, const void *content, size_t size) {
 
 void *make_answer(const Mesh &mesh, size_t *size) {
   const SporeImportAnswer head = {mesh.parts.size(), mesh.vertices.size() / 3, mesh.triangles.size() / 3,
-                                  mesh.passed_over};
+                                  mesh.passed_over, mesh.pictures.size()};
   const size_t part_bytes = mesh.parts.size() * sizeof(SporeImportPart);
   const size_t vertex_bytes = mesh.vertices.size() * sizeof(double);
   const size_t triangle_bytes = mesh.triangles.size() * sizeof(uint32_t);
-  *size = sizeof head + part_bytes + vertex_bytes + triangle_bytes;
+  size_t place_bytes = mesh.pictures.empty() ? 0 : mesh.places.size() * sizeof(float), picture_bytes = 0;
+  for (const Picture &picture : mesh.pictures) picture_bytes += sizeof(uint64_t) + picture.bytes.size();
+  *size = sizeof head + part_bytes + vertex_bytes + triangle_bytes + place_bytes + picture_bytes;
   char *answer = static_cast<char *>(std::malloc(*size));
   if (!answer) throw std::bad_alloc();
   std::memcpy(answer, &head, sizeof head);
@@ -270,6 +318,18 @@ void *make_answer(const Mesh &mesh, size_t *size) {
   std::memcpy(at, mesh.parts.data(), part_bytes);
   std::memcpy(at + part_bytes, mesh.vertices.data(), vertex_bytes);
   std::memcpy(at + part_bytes + vertex_bytes, mesh.triangles.data(), triangle_bytes);
+  at += part_bytes + vertex_bytes + triangle_bytes;
+  std::memcpy(at, mesh.places.data(), place_bytes);
+  at += place_bytes;
+  for (const Picture &picture : mesh.pictures) {
+    const uint64_t bytes = picture.bytes.size();
+    std::memcpy(at, &bytes, sizeof bytes);
+    at += sizeof bytes;
+  }
+  for (const Picture &picture : mesh.pictures) {
+    std::memcpy(at, picture.bytes.data(), picture.bytes.size());
+    at += picture.bytes.size();
+  }
   return answer;
 }
 

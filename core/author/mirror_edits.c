@@ -9,7 +9,10 @@
 #include "core/author/asset_stretch.h"
 #include "core/author/edits.h"
 #include "core/author/placement.h"
+#include "core/base/memory.h"
+#include "core/io/organ.h"
 #include "core/scene/compile.h"
+#include "core/scene/texture.h"
 
 typedef struct Mirror {
   SporeDocument *document;
@@ -109,6 +112,44 @@ static gboolean copy_children(const Mirror *mirror, const SporeObject *from, Spo
   return TRUE;
 }
 
+/* Textures: the picture stays, and each corner of the image has the place of what it is the image of. */
+
+static float *mirror_places(const Mirror *mirror, const SporeTriangleMesh *from, const float *places,
+                            const SporeTriangleMesh *to, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeTriangleMesh turned;
+  float *made = NULL;
+  if (spore_triangle_mesh_copy(&turned, from, &failure)) {
+    for (gsize i = 0; i < turned.vertex_count; i++) turned.vertices[3 * i + (gsize)mirror->axis] *= -1;
+    made = spore_texture_places_transfer(&turned, places, to, &failure);
+  }
+  spore_triangle_mesh_clear(&turned);
+  if (!made) spore_error_propagate(&failure, error);
+  return made;
+}
+
+static gboolean mirror_texture(const Mirror *mirror, GError **error) {
+  const SporeObject *visual = spore_object_child_of(mirror->body, "visual");
+  SporeObject *made = (SporeObject *)spore_object_child_of(mirror->copy, "visual");
+  SporeTexture texture;
+  if (!visual || !made || !spore_texture_read(mirror->document, visual, &texture, NULL))
+    return TRUE; /* check says why */
+  SporeDocument *document = mirror->document;
+  const SporeTriangleMesh *from = spore_document_mesh(document, spore_object_reference(visual, "mesh"), error);
+  const SporeTriangleMesh *to =
+      from ? spore_document_mesh(document, spore_object_reference(made, "mesh"), error) : NULL;
+  float *places = to ? mirror_places(mirror, from, texture.places, to, error) : NULL;
+  spore_texture_clear(&texture);
+  if (!places) return FALSE;
+  gsize size;
+  char *text = spore_texture_places_format(places, 3 * to->triangle_count, &size);
+  spore_free(places);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  g_autofree char *file = spore_content_file_name(spore_object_name(mirror->copy), "places", text, size);
+  spore_document_put_blob(document, file, content);
+  return spore_document_set_text(document, made, "texture_places", file, error);
+}
+
 static gboolean set_vector(const Mirror *mirror, SporeObject *object, const char *property, SporeVec3 v,
                            GError **error) {
   SporeValue value = {.type = SPORE_VECTOR};
@@ -187,7 +228,8 @@ static SporeObject *copy_body(Mirror *mirror, GError **error) {
   g_autofree char *name = name_of_image(mirror, spore_object_name(body));
   mirror->copy = spore_document_insert(mirror->document, spore_object_parent(body), "body", name, G_MAXUINT, error);
   gboolean done = mirror->copy && copy_values(mirror, body, mirror->copy, error) &&
-                  copy_children(mirror, body, mirror->copy, error) && place_copy(mirror, error) &&
+                  copy_children(mirror, body, mirror->copy, error) &&
+                  (mirror->axis == NONE || mirror_texture(mirror, error)) && place_copy(mirror, error) &&
                   copy_links(mirror, error);
   return done ? mirror->copy : NULL;
 }

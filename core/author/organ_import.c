@@ -13,6 +13,7 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/mesh/edit.h"
+#include "core/scene/texture.h"
 
 #define LABEL_ROUNDS 100 /* rounds of smoothing: fewer rounds leave the terraces of the voxels */
 #define MOST_BYTES ((goffset)1 << 30)
@@ -30,7 +31,22 @@ static void free_file(SporeImportFile *file) {
   g_free(file);
 }
 
+static void clear_texture(SporeImportTexture *texture) {
+  g_bytes_unref(texture->picture);
+  spore_triangle_mesh_clear(&texture->mesh);
+  spore_free(texture->places);
+}
+
+/* The body is drawn in its colour alone. */
+static void drop_texture(SporeImportBody *body) {
+  if (body->texture) g_rc_box_release_full(body->texture, (GDestroyNotify)clear_texture);
+  body->texture = NULL;
+  g_clear_pointer(&body->places, spore_free);
+}
+
 static void free_body(SporeImportBody *body) {
+  drop_texture(body);
+  g_free(body->untextured);
   g_free(body->name);
   g_free(body->group);
   spore_triangle_mesh_clear(&body->mesh);
@@ -65,14 +81,28 @@ GBytes *spore_import_read_content(const char *file, GError **error) {
   return bytes ? g_bytes_new_take(bytes, size) : NULL;
 }
 
+/* The picture of a part with the mesh that wears it now, or NULL: it has none. NULL with a failure: no memory. */
+static SporeImportTexture *texture_of(SporeMeshPart *part, SporeError *failure) {
+  if (!part->picture) return NULL;
+  SporeTriangleMesh mesh;
+  if (!spore_triangle_mesh_copy(&mesh, &part->mesh, failure)) return NULL;
+  SporeImportTexture *texture = g_rc_box_new0(SporeImportTexture);
+  texture->mesh = mesh;
+  texture->picture = g_bytes_ref(part->picture);
+  texture->places = g_steal_pointer(&part->places);
+  return texture;
+}
+
 /* Takes the mesh over. part: says group and colour; NULL: nothing says them. */
 static void add_body(Intake *intake, const char *name, const SporeImportFile *source, const SporeMeshPart *part,
-                     SporeTriangleMesh *mesh, bool changed) {
+                     SporeImportTexture *texture, SporeTriangleMesh *mesh, bool changed) {
   SporeImportBody *body = g_new0(SporeImportBody, 1);
   body->name = g_strdup(name);
   body->group = g_strdup(part ? part->group : "");
   body->coloured = part && part->coloured;
   if (part) memcpy(body->colour, part->colour, sizeof body->colour);
+  body->texture = texture ? g_rc_box_acquire(texture) : NULL;
+  body->untextured = g_strdup(part ? part->untextured : NULL);
   body->source = source;
   body->mesh = *mesh;
   body->changed = changed;
@@ -95,7 +125,7 @@ static gboolean too_many(const char *place, gsize count, GError **error) {
 }
 
 static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFile *file, SporeMeshPart *part,
-                           GError **error) {
+                           SporeImportTexture *texture, GError **error) {
   SporeTriangleMesh *mesh = &part->mesh;
   SporeError failure = SPORE_ERROR_INIT;
   uint32_t *pieces = NULL;
@@ -106,9 +136,9 @@ static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFi
     SporeTriangleMesh piece;
     done = spore_triangle_mesh_extract(mesh, pieces, (uint32_t)p, &piece, &failure) ||
            spore_error_propagate(&failure, error);
-    if (done) add_body(intake, name, file, part, &piece, true);
+    if (done) add_body(intake, name, file, part, texture, &piece, true);
   }
-  if (done && count == 1) add_body(intake, name, file, part, mesh, false);
+  if (done && count == 1) add_body(intake, name, file, part, texture, mesh, false);
   spore_free(pieces);
   return done;
 }
@@ -137,7 +167,7 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
             spore_triangle_mesh_smooth(&surface, LABEL_ROUNDS, &progress, &failure)) ||
            spore_error_propagate(&failure, error);
     done = done && spore_mesh_tidy(name, &surface, error);
-    if (done) add_body(intake, name, file, NULL, &surface, true);
+    if (done) add_body(intake, name, file, NULL, NULL, &surface, true);
     else spore_triangle_mesh_clear(&surface);
   }
   spore_label_map_clear(&map);
@@ -186,9 +216,13 @@ static gboolean add_parts(Intake *intake, const SporeImportFile *file, const GPt
   for (guint p = 0; done && p < parts->len; p++) {
     SporeMeshPart *part = g_ptr_array_index(parts, p);
     const char *name = *part->name ? part->name : stem;
-    if (division == SPORE_IMPORT_PIECES || (division == SPORE_IMPORT_PARTS && parts->len == 1))
-      done = add_pieces(intake, name, file, part, error);
-    else add_body(intake, name, file, part, &part->mesh, parts->len > 1);
+    SporeError failure = SPORE_ERROR_INIT;
+    SporeImportTexture *texture = texture_of(part, &failure);
+    if (part->picture && !texture) done = spore_error_propagate(&failure, error);
+    else if (division == SPORE_IMPORT_PIECES || (division == SPORE_IMPORT_PARTS && parts->len == 1))
+      done = add_pieces(intake, name, file, part, texture, error);
+    else add_body(intake, name, file, part, texture, &part->mesh, parts->len > 1);
+    if (texture) g_rc_box_release_full(texture, (GDestroyNotify)clear_texture);
   }
   if (done && intake->import->bodies->len > SPORE_IMPORT_BODIES_MAXIMUM)
     done = too_many(file->file, intake->import->bodies->len, error);
@@ -255,6 +289,9 @@ static gboolean merge(SporeImport *import, GError **error) {
     const SporeImportBody *from = g_ptr_array_index(import->bodies, i);
     if (!spore_triangle_mesh_append(&into->mesh, &from->mesh, &failure)) return spore_error_propagate(&failure, error);
   }
+  if (into->texture && !into->untextured)
+    into->untextured = g_strdup(_("merged bodies keep no picture; import it without merging"));
+  drop_texture(into);
   into->changed = true;
   into->source = NULL;
   g_ptr_array_set_size(import->bodies, 1);
@@ -272,6 +309,11 @@ static gboolean mend(Intake *intake, SporeImportBody *body, GError **error) {
                               &change, &progress, &failure);
     if (done) g_array_append_val(body->changes, change);
     body->changed = true;
+  }
+  if (done && body->texture) {
+    const SporeImportTexture *texture = body->texture;
+    body->places = spore_texture_places_transfer(&texture->mesh, texture->places, &body->mesh, &failure);
+    done = body->places != NULL;
   }
   if (!done) spore_error_at(&failure, body->name);
   return done || spore_error_propagate(&failure, error);
@@ -304,6 +346,23 @@ static gboolean paint(SporeDocument *document, SporeObject *made, const SporeImp
   return !body->coloured || spore_edit_set_colour(document, made, body->colour, error);
 }
 
+/* Keeps the picture and the places of the body's corners beside the scene, named by their content. */
+static gboolean lay(SporeDocument *document, SporeObject *made, const SporeImportBody *body, GError **error) {
+  SporeObject *visual = (SporeObject *)spore_object_child_of(made, "visual");
+  if (!body->texture) return TRUE;
+  gsize size, picture_size;
+  gconstpointer picture = g_bytes_get_data(body->texture->picture, &picture_size);
+  char *text = spore_texture_places_format(body->places, 3 * body->mesh.triangle_count, &size);
+  g_autoptr(GBytes) places = g_bytes_new_take(text, size);
+  g_autofree char *name = spore_organ_name(body->name);
+  g_autofree char *picture_file = spore_content_file_name(name, "png", picture, picture_size);
+  g_autofree char *places_file = spore_content_file_name(name, "places", text, size);
+  spore_document_put_blob(document, picture_file, body->texture->picture);
+  spore_document_put_blob(document, places_file, places);
+  return spore_document_set_text(document, visual, "texture", picture_file, error) &&
+         spore_document_set_text(document, visual, "texture_places", places_file, error);
+}
+
 static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {
   const SporeImportFile *source = body->source;
   if (!body->changed)
@@ -319,7 +378,9 @@ gboolean spore_import_insert(SporeDocument *document, const SporeImport *import,
   g_autoptr(GPtrArray) made = g_ptr_array_new();
   for (guint i = 0; i < import->bodies->len; i++) {
     SporeObject *body = insert_body(document, g_ptr_array_index(import->bodies, i), error);
-    if (!body || !paint(document, body, g_ptr_array_index(import->bodies, i), error)) return FALSE;
+    if (!body || !paint(document, body, g_ptr_array_index(import->bodies, i), error) ||
+        !lay(document, body, g_ptr_array_index(import->bodies, i), error))
+      return FALSE;
     g_ptr_array_add(made, body);
   }
   if (bodies) *bodies = g_steal_pointer(&made);

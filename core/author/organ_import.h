@@ -38,6 +38,13 @@ typedef struct SporeImportFile {
   bool overruled;  /* a label map: the given unit or axes were ignored, because its header says them */
 } SporeImportFile;
 
+/* A picture and the mesh that wore it in the file, shared by the bodies that were made of the mesh. */
+typedef struct SporeImportTexture {
+  GBytes *picture; /* PNG */
+  SporeTriangleMesh mesh;
+  float *places; /* mesh.triangle_count x 3 x 2 */
+} SporeImportTexture;
+
 /* A body that will be inserted. */
 typedef struct SporeImportBody {
   char *name;
@@ -45,10 +52,13 @@ typedef struct SporeImportBody {
   const SporeImportFile *source; /* NULL: several */
   double colour[3];              /* as SporeMeshPart.colour */
   bool coloured;
-  bool changed;             /* its mesh differs from the mesh in the file */
-  SporeTriangleMesh mesh;   /* m, SPORE's axes */
-  SporeMeshFigures as_read; /* after division or joining */
-  GArray *changes;          /* SporeMeshChange, in the order done */
+  SporeImportTexture *texture; /* NULL: none */
+  float *places;               /* then of the corners of the mesh's triangles, x 3 x 2 */
+  char *untextured;            /* as SporeMeshPart.untextured */
+  bool changed;                /* its mesh differs from the mesh in the file */
+  SporeTriangleMesh mesh;      /* m, SPORE's axes */
+  SporeMeshFigures as_read;    /* after division or joining */
+  GArray *changes;             /* SporeMeshChange, in the order done */
 } SporeImportBody;
 
 typedef struct SporeImport {
@@ -69,9 +79,9 @@ void spore_import_free(SporeImport *import);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
 
 /* Inserts a mesh asset and a body that shows it for each body of the import. An unchanged mesh keeps the file's own
- * content, unit and frame; a changed mesh becomes OFF in metres and SPORE's axes, named by its content. The caller
- * opens the group that makes one undo step: on FALSE objects inserted before the failure stay. *bodies (may be NULL):
- * the objects, GPtrArray. */
+ * content, unit and frame; a changed mesh becomes OFF in metres and SPORE's axes, named by its content. Beside it lie
+ * its picture and the places of its corners in the picture, where it has one. The caller opens the group that makes one
+ * undo step: on FALSE objects inserted before the failure stay. *bodies (may be NULL): the objects, GPtrArray. */
 gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error);
 
 /* A remark about a file that the checks of the scene do not make: NULL, or "what; remedy", translated. g_free. */

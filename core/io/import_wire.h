@@ -17,14 +17,23 @@ typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
   float colour[3];         /* the base colour of its material, sRGB from 0 to 1; used where coloured */
   uint32_t coloured;       /* the file says the colour */
+  uint32_t textured;       /* its material has a picture; the colour is what the picture is multiplied by */
+  uint32_t picture;        /* number of the picture from 1, the same for all its triangles; 0: none that can be used */
   char name[64];           /* name of its node or mesh, cut to fit; empty: it has none */
   char group[192];         /* names of the nodes that it lies in, outermost first, between slashes; may be empty */
 } SporeImportPart;
 
-/* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */
+/* Pictures of an answer at most, and bytes of each. */
+#define SPORE_IMPORT_PICTURES_MAXIMUM 500
+#define SPORE_IMPORT_PICTURE_BYTES (UINT64_C(64) << 20)
+
+/* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. Where there are
+ * pictures: of each corner of each triangle its place in the picture, 2 floats from the upper left corner; then the
+ * size of each picture in bytes, uint64_t; then the pictures. */
 typedef struct SporeImportAnswer {
   uint64_t part_count, vertex_count, triangle_count;
   uint64_t passed_over; /* points and lines */
+  uint64_t picture_count;
 } SporeImportAnswer;
 
 #endif

@@ -3,6 +3,7 @@
 #include "core/io/mesh_import.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -12,6 +13,7 @@
 #include "core/io/mesh_text.h"
 #include "core/io/off.h"
 #include "core/mesh/edit.h"
+#include "core/scene/texture.h"
 
 const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 
@@ -49,14 +51,18 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
 /* The mesh as in the file: its triangles, and the part that each belongs to. */
 typedef struct Raw {
   SporeTriangleMesh mesh;
-  guint32 *part; /* triangle_count; NULL: one part without a name */
-  GArray *parts; /* of SporeImportPart; NULL as well */
+  guint32 *part;       /* triangle_count; NULL: one part without a name */
+  GArray *parts;       /* of SporeImportPart; NULL as well */
+  GPtrArray *pictures; /* of GBytes; NULL: the file brings none */
+  float *places;       /* then of the corners of its triangles, x 3 x 2 */
 } Raw;
 
 static void clear_raw(Raw *raw) {
   spore_triangle_mesh_clear(&raw->mesh);
   g_clear_pointer(&raw->part, spore_free);
   g_clear_pointer(&raw->parts, g_array_unref);
+  g_clear_pointer(&raw->pictures, g_ptr_array_unref);
+  g_clear_pointer(&raw->places, g_free);
 }
 
 static gboolean fail_memory(const char *place, GError **error) {
@@ -78,11 +84,33 @@ static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw
     SporeImportPart part;
     memcpy(&part, bytes + p * sizeof part, sizeof part);
     if (part.triangle_count > head->triangle_count - triangle) return FALSE;
+    if (part.picture > head->picture_count) return FALSE;
     part.name[sizeof part.name - 1] = part.group[sizeof part.group - 1] = '\0';
     g_array_append_val(raw->parts, part);
     for (guint64 t = 0; t < part.triangle_count; t++) raw->part[triangle++] = (guint32)p;
   }
   return triangle == head->triangle_count;
+}
+
+/* Places and pictures, which fill the rest of the answer. A place that is no number is the picture's corner. */
+static gboolean read_pictures(const char *bytes, gsize size, const SporeImportAnswer *head, Raw *raw) {
+  if (head->picture_count == 0) return size == 0;
+  gsize corners = 6 * head->triangle_count, before = corners * sizeof(float);
+  if (head->picture_count > SPORE_IMPORT_PICTURES_MAXIMUM || size < before + head->picture_count * sizeof(guint64))
+    return FALSE;
+  raw->places = g_memdup2(bytes, before);
+  for (gsize i = 0; raw->places && i < corners; i++)
+    if (!(fabsf(raw->places[i]) <= 1e6f)) raw->places[i] = 0;
+  gsize at = before + head->picture_count * sizeof(guint64);
+  raw->pictures = g_ptr_array_new_with_free_func((GDestroyNotify)g_bytes_unref);
+  for (guint64 p = 0; p < head->picture_count; p++) {
+    guint64 length;
+    memcpy(&length, bytes + before + p * sizeof length, sizeof length);
+    if (length > size - at) return FALSE;
+    g_ptr_array_add(raw->pictures, g_bytes_new(bytes + at, length));
+    at += length;
+  }
+  return at == size;
 }
 
 /* The helper is not trusted: its counts must agree to the byte with what it sent. */
@@ -100,8 +128,9 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
         part_bytes = MIN(head.part_count, head.triangle_count) * sizeof(SporeImportPart);
   raw->part = SPORE_NEW_ARRAY(guint32, head.triangle_count);
   if (!raw->part) return fail_memory(place, error);
-  if (head.part_count > head.triangle_count || size != sizeof head + part_bytes + vertex_bytes + triangle_bytes ||
-      !read_parts(bytes + sizeof head, &head, raw))
+  gsize mesh_bytes = sizeof head + part_bytes + vertex_bytes + triangle_bytes;
+  if (head.part_count > head.triangle_count || size < mesh_bytes || !read_parts(bytes + sizeof head, &head, raw) ||
+      !read_pictures(bytes + mesh_bytes, size - mesh_bytes, &head, raw))
     return fail_answer(place, error);
   SporeError failure = SPORE_ERROR_INIT;
   if (!spore_triangle_mesh_allocate(&raw->mesh, head.vertex_count, head.triangle_count, &failure)) {
@@ -228,6 +257,9 @@ void spore_mesh_part_free(SporeMeshPart *part) {
   g_free(part->name);
   g_free(part->group);
   spore_triangle_mesh_clear(&part->mesh);
+  g_clear_pointer(&part->picture, g_bytes_unref);
+  spore_free(part->places);
+  g_free(part->untextured);
   g_free(part);
 }
 
@@ -250,23 +282,72 @@ static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
   }
 }
 
+/* Why the picture of the parts is not taken; NULL: it is, or there is none. *number: of the picture, from 1. g_free. */
+static char *why_untextured(const Raw *raw, const SporeImportPart *said, gboolean apart, guint32 *number) {
+  gboolean textured = FALSE, alike = TRUE;
+  *number = said ? said->picture : 0;
+  for (guint p = 0; raw->parts && p < raw->parts->len; p++) {
+    const SporeImportPart *one = &g_array_index(raw->parts, SporeImportPart, p);
+    if (apart && one != said) continue;
+    textured = textured || one->textured;
+    alike = alike && one->picture == *number;
+  }
+  if (!textured) return NULL;
+  if (!alike) return g_strdup(_("its parts wear different pictures; split it to have a body of each"));
+  if (*number == 0)
+    return g_strdup(_("its materials wear different pictures, or one that is not in the file; export it as GLB with "
+                      "one picture for each mesh"));
+  int width, height;
+  g_autoptr(GError) error = NULL;
+  if (spore_texture_size("", raw->pictures->pdata[*number - 1], &width, &height, &error)) return NULL;
+  return g_strdup(g_str_has_prefix(error->message, ": ") ? error->message + 2 : error->message);
+}
+
+/* The places of the triangles of a part; g_free. */
+static float *places_of_part(const Raw *raw, const guint32 *pieces, guint32 number) {
+  float *places = g_new(float, 6 * raw->mesh.triangle_count + 1);
+  gsize count = 0;
+  for (gsize t = 0; t < raw->mesh.triangle_count; t++)
+    if (!pieces || pieces[t] == number) memcpy(places + 6 * count++, raw->places + 6 * t, 6 * sizeof *places);
+  return places;
+}
+
+/* Lays the picture over the part once the part is tidy. rough: the mesh before that. */
+static gboolean take_texture(const Raw *raw, guint32 picture, const SporeTriangleMesh *rough, const float *places,
+                             SporeMeshPart *part, SporeError *failure) {
+  part->places = spore_texture_places_transfer(rough, places, &part->mesh, failure);
+  if (part->places) part->picture = g_bytes_ref(raw->pictures->pdata[picture - 1]);
+  return part->places != NULL;
+}
+
 /* The part of that number; `pieces` NULL: the whole mesh. NULL with an error. */
 static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
   SporeMeshPart *part = g_new0(SporeMeshPart, 1);
   SporeError failure = SPORE_ERROR_INIT;
+  SporeTriangleMesh rough = {0};
+  guint32 picture;
   const SporeImportPart *said = said_of(raw, pieces != NULL, number);
   part->name = g_utf8_make_valid(said && pieces ? said->name : "", -1);
   part->group = g_utf8_make_valid(said && pieces ? said->group : "", -1);
+  part->untextured = why_untextured(raw, said, pieces != NULL, &picture);
   take_colour(said, part);
+  if (part->untextured) picture = 0, part->coloured = false; /* the colour alone says little */
   g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
   gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* validated before its indices are used */
+  g_autofree float *places = done && picture ? places_of_part(raw, pieces, number) : NULL;
   if (done && pieces) done = spore_triangle_mesh_extract(&raw->mesh, pieces, number, &part->mesh, &failure);
   else if (done) part->mesh = raw->mesh, raw->mesh = (SporeTriangleMesh){0};
-  if (!done) {
+  if (done && places) done = spore_triangle_mesh_copy(&rough, &part->mesh, &failure);
+  if (done) {
+    done = spore_mesh_tidy(where, &part->mesh, error);
+    if (done && places && !take_texture(raw, picture, &rough, places, part, &failure))
+      done = (spore_error_at(&failure, where), spore_error_propagate(&failure, error));
+  } else {
     spore_error_at(&failure, where);
     spore_error_propagate(&failure, error);
   }
-  if (done && spore_mesh_tidy(where, &part->mesh, error)) return part;
+  spore_triangle_mesh_clear(&rough);
+  if (done) return part;
   spore_mesh_part_free(part);
   return NULL;
 }

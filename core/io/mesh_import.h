@@ -41,6 +41,10 @@ typedef struct SporeMeshPart {
   double colour[3]; /* base colour of its material, sRGB from 0 to 1; of joined parts: of the largest */
   bool coloured;    /* the file says the colour */
   SporeTriangleMesh mesh;
+  GBytes *picture;  /* PNG that all of it wears (core/scene/texture.h); NULL: none */
+  float *places;    /* then of the corners of the mesh's triangles in the picture, x 3 x 2; spore_free */
+  char *untextured; /* why a picture that the file brings is not taken, translated; NULL: it brings none, or it is taken
+                     */
 } SporeMeshPart;
 void spore_mesh_part_free(SporeMeshPart *part);
 #define SPORE_MESH_PARTS_MAXIMUM 500u

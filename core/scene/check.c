@@ -289,6 +289,7 @@ GPtrArray *spore_document_check(SporeDocument *document, const SporeCancel *canc
   spore_check_links(&check);
   spore_check_exercise(&check);
   spore_check_assets(&check);
+  spore_check_textures(&check);
   spore_check_materials(&check);
   spore_check_solver(&check);
   spore_check_motion(&check);

@@ -34,8 +34,9 @@ void spore_check_each(SporeCheck *check, const char *section, const char *elemen
 /* Whether an object of one of these elements (joined by |; NULL: any) refers to the asset. */
 gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements);
 
-void spore_check_links(SporeCheck *check);  /* links that tie nothing, and bodies that are tied too often */
-void spore_check_assets(SporeCheck *check); /* assets: readable, used, of a likely size, up to date */
+void spore_check_links(SporeCheck *check);    /* links that tie nothing, and bodies that are tied too often */
+void spore_check_assets(SporeCheck *check);   /* assets: readable, used, of a likely size, up to date */
+void spore_check_textures(SporeCheck *check); /* pictures of bodies that are missing, too large or of another mesh */
 /* Values far from those of the material that the author named. */
 void spore_check_materials(SporeCheck *check);
 void spore_check_exercise(SporeCheck *check); /* steps of the exercise that no tool can do */

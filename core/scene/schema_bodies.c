@@ -188,6 +188,22 @@ static const SporeParameter visual_parameters[] = {
      FIELD(SporeVisualFields, wetness),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("How strongly a wet film shines on the surface.")},
+    {.name = "texture",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeVisualFields, texture),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Picture that is laid over the mesh and multiplied by the colour: a PNG of at most 8192 pixels a side, "
+               "inside the scene's folder.")},
+    {.name = "texture_places",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeVisualFields, places),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("Where the corners of the mesh's triangles lie in the texture: a file with a line spore-places 1, then a "
+            "line u v for each corner of each triangle; 0 0 is the picture's upper left corner, 1 1 its lower right "
+            "one.")},
 };
 
 static const SporeParameter fidelity_parameters[] = {

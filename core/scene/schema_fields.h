@@ -58,7 +58,7 @@ typedef struct SporeCollisionFields {
 } SporeCollisionFields;
 
 typedef struct SporeVisualFields {
-  const char *mesh;
+  const char *mesh, *texture, *places; /* NULL: none */
   double colour[3], wetness;
 } SporeVisualFields;
 

@@ -12,6 +12,14 @@ uniform float selected; // 0 or 1
 uniform int material;   // SporeMaterial
 uniform vec3 axis;      // streaks of brushed metal run along it, rest axes
 
+#ifdef TEXTURED
+in vec2 v_place;
+uniform sampler2D texture_map;
+const float patchiness = 0.2; // the picture has its own patches and vessels
+#else
+const float patchiness = 1.0;
+#endif
+
 out vec4 result;
 
 // Noise that is finer than a pixel fades out instead of sparkling.
@@ -44,29 +52,34 @@ float soaked(float unevenness) {
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
+#ifdef TEXTURED
+  vec3 base = colour * texture(texture_map, v_place).rgb;
+#else
+  vec3 base = colour;
+#endif
   vec3 outcome;
   if (v_value >= 0.0) {
     outcome = shade_plain(scale_colour(v_value), v_position, normal);
   } else if (material == 2) {
-    outcome = shade_tissue(colour, wetness, v_position, normal, normal, open, lit);
+    outcome = shade_tissue(base, wetness, v_position, normal, normal, open, lit);
   } else if (material == 1) {
     vec3 across = v_rest - axis * dot(v_rest, axis);
     vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
-    outcome = shade_metal(colour, v_position, normal, mat3(rotation) * streak, open, lit);
+    outcome = shade_metal(base, v_position, normal, mat3(rotation) * streak, open, lit);
     if (v_stain > 0.0)
       outcome = mix(outcome, shade_tissue(blood_colour, 1.0, v_position, normal, normal, open, lit), 0.9 * soaked(v_mottle - 0.5));
   } else {
     // Blood shows through unevenly: pale and dark patches, and a fine grain.
     vec4 grain = noise(v_rest * 2.7);
-    float patches = v_mottle - 0.5 + 0.22 * (grain.x - 0.5);
-    float blood = clamp(1.5 * (colour.r - colour.g) / (colour.r + 0.001), 0.1, 1.0);
-    vec3 albedo = colour * (1.0 + mix(vec3(0.75), vec3(0.75, 1.5, 1.4), blood) * patches);
+    float patches = patchiness * (v_mottle - 0.5 + 0.22 * (grain.x - 0.5));
+    float blood = clamp(1.5 * (base.r - base.g) / (base.r + 0.001), 0.1, 1.0);
+    vec3 albedo = base * (1.0 + mix(vec3(0.75), vec3(0.75, 1.5, 1.4), blood) * patches);
 #if QUALITY
     vec4 broad = noise(v_rest * 1.1 + 5.3), fine = noise(v_rest * 7.3 + 3.1);
-    albedo *= 1.0 + vec3(0.16, 0.24, 0.24) * (fine.x - 0.5) * detail(7.3);
+    albedo *= 1.0 + patchiness * vec3(0.16, 0.24, 0.24) * (fine.x - 0.5) * detail(7.3);
     float thread = vessel(v_rest * 1.15 + 0.14 * grain.yzw + 0.03 * fine.yzw + 11.0, 0.022 + 0.025 * broad.x);
     thread *= smoothstep(0.47, 0.66, v_mottle + 0.25 * (broad.x - 0.5)) * detail(6.0);
-    albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * thread * blood);
+    albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * patchiness * thread * blood);
     vec3 bump = broad.yzw * 0.16 + grain.yzw * 0.11 * detail(2.7) + fine.yzw * 0.030 * detail(7.3);
     bump += noise(v_rest * 17.0).yzw * 0.012 * detail(17.0);
 #else

@@ -3,6 +3,10 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest; // xyz: place at rest in pattern cells, so that the pattern sticks; w: slow mottling 0..1
 layout(location = 3) in float value; // of the scale of colours, 0..1; below 0: tissue
 layout(location = 4) in float stain; // 0..1: how much blood covers it
+#ifdef TEXTURED
+layout(location = 5) in vec2 place; // in the texture
+out vec2 v_place;
+#endif
 
 uniform vec3 offset; // of the mesh's origin from the eye, world axes
 
@@ -26,5 +30,8 @@ void main() {
   v_mottle = rest.w;
   v_value = value;
   v_stain = stain;
+#ifdef TEXTURED
+  v_place = place;
+#endif
 #endif
 }

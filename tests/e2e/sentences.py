@@ -334,6 +334,9 @@ CHECK = [
      generated('source_hash="0000000000000000" frozen="true"'), generated('frozen="true"')),
     ("\"%s\" is stale: its options have changed since it was made", ["generate it again"],
      STALE, generated('source_hash="{cube}"')),
+    ("\"%s\" has places in a texture, and no texture", ["name a texture, or remove texture_places"],
+     scene(stone(STONE, BALL, '<visual mesh="cube" texture_places="a"/>')),
+     scene(stone(STONE, BALL, '<visual mesh="cube" texture="a" texture_places="a"/>'))),
     ("nothing uses the %s \"%s\"", ["remove it, or name it in a body"],
      scene(floor(), stone(), assets=ASSETS + CELLS), GOOD),
 

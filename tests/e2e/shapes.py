@@ -1,8 +1,10 @@
 """Small meshes for the end-to-end tests, made here so that they need no file."""
+import base64
 import gzip
 import json
 import math
 import struct
+import zlib
 
 
 def sphere(radius=0.03, rings=12, sectors=24, centre=(0.0, 0.0, 0.0)):
@@ -54,6 +56,34 @@ def glb(**parts):
     text += b" " * (-len(text) % 4)
     return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<I4s", len(text), b"JSON") + text +
             struct.pack("<I4s", len(blob), b"BIN\0") + blob)
+
+
+def png(width, height, at):
+    """RGB picture: at(x, y) gives three bytes."""
+    rows = b"".join(b"\0" + b"".join(bytes(at(x, y)) for x in range(width)) for y in range(height))
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def textured_gltf(vertices, triangles, picture, kind="image/png"):
+    """glTF text of a mesh that wears the picture, laid over it from the front, all in one file."""
+    low, high = [min(v[k] for v in vertices) for k in range(3)], [max(v[k] for v in vertices) for k in range(3)]
+    places = [((v[0] - low[0]) / (high[0] - low[0]), (high[1] - v[1]) / (high[1] - low[1])) for v in vertices]
+    pieces = [b"".join(struct.pack("<3f", *v) for v in vertices), b"".join(struct.pack("<2f", *p) for p in places),
+              b"".join(struct.pack("<3I", *t) for t in triangles), picture]
+    starts = [sum(map(len, pieces[:i])) for i in range(4)]
+    data = lambda content: "data:application/octet-stream;base64," + base64.b64encode(content).decode()
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "worn", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}],
+        "images": [{"bufferView": 3, "mimeType": kind}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(vertices), "type": "VEC3", "min": low, "max": high},
+                      {"bufferView": 1, "componentType": 5126, "count": len(vertices), "type": "VEC2"},
+                      {"bufferView": 2, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": len(piece)} for start, piece in zip(starts, pieces)],
+        "buffers": [{"byteLength": sum(map(len, pieces)), "uri": data(b"".join(pieces))}]})
 
 
 def labels(size, label_at):

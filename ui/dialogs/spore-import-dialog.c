@@ -103,6 +103,10 @@ static void show_warnings(SporeImportDialog *self) {
     g_autofree char *remark = spore_import_remark(file), *base = g_path_get_basename(file->file);
     if (remark) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", base, remark);
   }
+  for (guint i = 0; i < self->import->bodies->len; i++) {
+    const SporeImportBody *body = g_ptr_array_index(self->import->bodies, i);
+    if (body->untextured) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", body->name, body->untextured);
+  }
   for (guint i = 0; i < self->import->left_out->len; i++)
     g_string_append_printf(text, _("%sLeft out: %s"), text->len ? "\n" : "", (char *)self->import->left_out->pdata[i]);
   gtk_label_set_text(GTK_LABEL(self->warning), text->str);

@@ -138,7 +138,8 @@ static void upload_plane(const Plane *plane, const SporeSurfaceGroup *surface, c
 
 /* Draws the plane where the stencil says, as the inside of the body. */
 static void draw_cap(const Plane *plane, const SporeSurfaceGroup *surface, const SporeProgram *program) {
-  const float *colour = surface->style.colour;
+  float colour[3];
+  for (int k = 0; k < 3; k++) colour[k] = surface->style.colour[k] * (surface->texture ? surface->texture->mean[k] : 1);
   glUseProgram(program->id);
   glUniform3f(program->offset, 0, 0, 0);
   glUniform3f(program->colour, INSIDE_LIGHT * colour[0], INSIDE_LIGHT * colour[1], INSIDE_LIGHT * colour[2]);

@@ -34,11 +34,13 @@ gboolean spore_drawables_show(const GPtrArray *drawables, SporeDrawableKind kind
 }
 
 static void free_surface(SporeSurfaceGroup *surface) {
-  GLuint buffers[] = {surface->moving, surface->rest, surface->values, surface->stain, surface->indices};
+  GLuint buffers[] = {surface->moving, surface->rest,    surface->values,
+                      surface->stain,  surface->indices, surface->places};
   glDeleteBuffers(G_N_ELEMENTS(buffers), buffers);
   glDeleteVertexArrays(1, &surface->vertex_array);
   g_free(surface->triangles);
   g_free(surface->normals);
+  g_free(surface->twins);
 }
 
 static void free_spheres(SporeSphereGroup *group) {

@@ -17,6 +17,7 @@ typedef enum SporeVariant {
 
 typedef enum SporeProgramKind {
   SPORE_PROGRAM_SURFACE,
+  SPORE_PROGRAM_TEXTURED_SURFACE,
   SPORE_PROGRAM_SPHERE,
   SPORE_PROGRAM_HIDDEN_SPHERE,
   SPORE_PROGRAM_PUFF,
@@ -46,7 +47,14 @@ void spore_programs_clear(SporePrograms *programs);
 const char *spore_program_name(SporeProgramKind kind);
 
 /* Texture units of the full variant. */
-enum { SPORE_UNIT_OCCLUSION, SPORE_UNIT_SHADOW, SPORE_UNIT_COLOUR, SPORE_UNIT_DEPTH, SPORE_UNIT_GLOW };
+enum {
+  SPORE_UNIT_OCCLUSION,
+  SPORE_UNIT_SHADOW,
+  SPORE_UNIT_COLOUR,
+  SPORE_UNIT_DEPTH,
+  SPORE_UNIT_GLOW,
+  SPORE_UNIT_TEXTURE
+};
 
 /* What all shaders know; laid out as the uniform block `Frame` (std140). */
 typedef struct SporeFrameBlock {
@@ -76,12 +84,26 @@ typedef struct SporeDrawable {
   double origin[3], lower[3], upper[3]; /* m, world */
 } SporeDrawable;
 
+/* A picture that surfaces wear, on the graphics device with its smaller copies. */
+typedef struct SporeTextureImage {
+  GLuint id;
+  float mean[3]; /* of its colours, linear light */
+} SporeTextureImage;
+/* NULL with a GError: the PNG cannot be decoded, or there is no memory for it. */
+SporeTextureImage *spore_texture_image_new(const char *place, GBytes *png, GError **error);
+void spore_texture_image_free(SporeTextureImage *image);
+
 typedef struct SporeSurfaceGroup {
   SporeDrawable base;
   GLuint vertex_array, moving, rest, values, stain, indices; /* values, stain: 0: has none */
   gsize vertex_count, triangle_count;
   guint32 *triangles; /* triangle_count x 3 */
   double *normals;    /* vertex_count x 3 */
+  /* Of a textured surface: its vertices as they are drawn, one for each place that a vertex has in the texture. */
+  const SporeTextureImage *texture; /* borrowed; NULL: the surface has none, and the vertices are drawn as they are */
+  GLuint places;
+  gsize drawn_count; /* vertices that are drawn */
+  guint32 *twins;    /* drawn_count: which vertex each is; NULL: each itself */
   SporeSurfaceStyle style;
   gboolean closed; /* so that back faces are never seen */
   float cell;      /* m: size of the pattern of the tissue */
@@ -116,6 +138,9 @@ typedef struct SporeLineGroup {
 /* The context must be current for all functions below. */
 SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
                                      gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
+/* Lays a texture over a new surface. places: triangle_count x 3 x 2; vertices: as given to spore_surface_new. */
+void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const SporeTextureImage *texture,
+                       const float *places);
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
 /* Whether its cut by the plane of the frame is filled. */
@@ -179,6 +204,7 @@ void spore_target_clear(SporeTarget *target);
 typedef struct SporeCanvas {
   GPtrArray *drawables; /* SporeDrawable * by handle - 1, NULL where removed */
   GPtrArray *grid;      /* SporeLineGroup * */
+  GPtrArray *textures;  /* SporeTextureImage * by handle - 1, NULL where removed */
   SporeCone cones[SPORE_CONES_MOST];
   guint cone_count; /* 0: nothing is tinted */
   SporePrograms programs;

@@ -14,6 +14,7 @@ typedef struct ProgramSource {
 
 static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_SURFACE] = {"surface.vert", "surface.frag"},
+    [SPORE_PROGRAM_TEXTURED_SURFACE] = {"surface.vert", "surface.frag", "#define TEXTURED\n"},
     [SPORE_PROGRAM_SPHERE] = {"sphere.vert", "sphere.frag"},
     [SPORE_PROGRAM_HIDDEN_SPHERE] = {"sphere.vert", "sphere.frag", "#define HIDDEN\n"},
     [SPORE_PROGRAM_PUFF] = {"puff.vert", "puff.frag"},
@@ -129,6 +130,7 @@ static void find_uniforms(SporeProgram *program) {
   set_sampler(id, "colour_map", SPORE_UNIT_COLOUR);
   set_sampler(id, "depth_map", SPORE_UNIT_DEPTH);
   set_sampler(id, "glow_map", SPORE_UNIT_GLOW);
+  set_sampler(id, "texture_map", SPORE_UNIT_TEXTURE);
 }
 
 const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind kind, SporeVariant variant,

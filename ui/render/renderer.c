@@ -30,6 +30,7 @@ SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error) {
   renderer->offscreen = offscreen;
   renderer->canvas.drawables = g_ptr_array_new();
   renderer->canvas.grid = spore_grid_new();
+  renderer->canvas.textures = g_ptr_array_new();
   glGenBuffers(1, &renderer->canvas.block);
   glGenVertexArrays(1, &renderer->canvas.screen_array);
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderer->largest);
@@ -48,6 +49,8 @@ void spore_renderer_free(SporeRenderer *renderer) {
   if (!renderer) return;
   spore_renderer_clear(renderer);
   for (guint i = 0; i < renderer->canvas.grid->len; i++) spore_drawable_free(renderer->canvas.grid->pdata[i]);
+  for (guint i = 0; i < renderer->canvas.textures->len; i++)
+    spore_texture_image_free(renderer->canvas.textures->pdata[i]);
   spore_programs_clear(&renderer->canvas.programs);
   spore_target_clear(&renderer->screen);
   spore_target_clear(&renderer->sampled);
@@ -56,6 +59,7 @@ void spore_renderer_free(SporeRenderer *renderer) {
   glDeleteVertexArrays(1, &renderer->canvas.screen_array);
   g_ptr_array_free(renderer->canvas.drawables, TRUE);
   g_ptr_array_free(renderer->canvas.grid, TRUE);
+  g_ptr_array_free(renderer->canvas.textures, TRUE);
   g_free(renderer);
 }
 
@@ -70,12 +74,17 @@ gboolean spore_renderer_has_used(const SporeRenderer *renderer, const char *shad
 
 /* Handles. */
 
-static guint add(SporeRenderer *renderer, SporeDrawable *drawable) {
+/* The first free place, whose number from 1 is the handle. */
+static guint keep(GPtrArray *array, gpointer thing) {
   guint i = 0;
-  while (i < renderer->canvas.drawables->len && renderer->canvas.drawables->pdata[i]) i++;
-  if (i == renderer->canvas.drawables->len) g_ptr_array_add(renderer->canvas.drawables, drawable);
-  else renderer->canvas.drawables->pdata[i] = drawable;
+  while (i < array->len && array->pdata[i]) i++;
+  if (i == array->len) g_ptr_array_add(array, thing);
+  else array->pdata[i] = thing;
   return i + 1;
+}
+
+static guint add(SporeRenderer *renderer, SporeDrawable *drawable) {
+  return keep(renderer->canvas.drawables, drawable);
 }
 
 static SporeDrawable *find(SporeRenderer *renderer, guint handle) {
@@ -110,6 +119,26 @@ gboolean spore_renderer_fills_surface(SporeRenderer *renderer, guint surface) {
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices) {
   SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   if (drawable) spore_surface_move(drawable, vertices);
+}
+
+guint spore_renderer_add_texture(SporeRenderer *renderer, const char *place, GBytes *png, GError **error) {
+  spore_offscreen_make_current(renderer->offscreen);
+  SporeTextureImage *image = spore_texture_image_new(place, png, error);
+  return image ? keep(renderer->canvas.textures, image) : 0;
+}
+
+void spore_renderer_remove_texture(SporeRenderer *renderer, guint texture) {
+  g_return_if_fail(texture > 0 && texture <= renderer->canvas.textures->len);
+  spore_offscreen_make_current(renderer->offscreen);
+  spore_texture_image_free(renderer->canvas.textures->pdata[texture - 1]);
+  renderer->canvas.textures->pdata[texture - 1] = NULL;
+}
+
+void spore_renderer_lay_texture(SporeRenderer *renderer, guint surface, const double *vertices, guint texture,
+                                const float *places) {
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  g_return_if_fail(texture > 0 && texture <= renderer->canvas.textures->len);
+  if (drawable) spore_surface_lay(drawable, vertices, renderer->canvas.textures->pdata[texture - 1], places);
 }
 
 void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain) {

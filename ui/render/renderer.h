@@ -39,6 +39,16 @@ guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *v
 /* Whether its cut by a plane is filled: it is closed. */
 gboolean spore_renderer_fills_surface(SporeRenderer *renderer, guint surface);
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
+/* A picture for surfaces; its content is a PNG (core/scene/texture.h). 0 with a GError: it cannot be decoded, or there
+ * is no memory for it. */
+guint spore_renderer_add_texture(SporeRenderer *renderer, const char *place, GBytes *png, GError **error);
+/* Surfaces that wear it are removed before. */
+void spore_renderer_remove_texture(SporeRenderer *renderer, guint texture);
+/* Lays a texture over a new surface: it is multiplied by the colour. vertices: as they were added; places: of each
+ * corner of each triangle, triangle_count x 3 x 2, from the picture's upper left corner (0 0) to its lower right one.
+ */
+void spore_renderer_lay_texture(SporeRenderer *renderer, guint surface, const double *vertices, guint texture,
+                                const float *places);
 /* stain: one a vertex, 0..1: how much blood covers it; none at first. */
 void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain);
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style);

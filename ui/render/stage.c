@@ -10,6 +10,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->document = document;
   stage->options.surfaces = TRUE;
   stage->bodies = g_ptr_array_new();
+  stage->textures = spore_stage_textures_new();
   stage->fit = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
@@ -30,6 +31,9 @@ void spore_stage_free(SporeStage *stage) {
   spore_stage_set_marks(stage, NULL);
   spore_stage_set_ports(stage, NULL, 0);
   clear(stage);
+  spore_stage_drop_textures(stage); /* those of the last bodies */
+  spore_stage_drop_textures(stage);
+  g_hash_table_destroy(stage->textures);
   g_ptr_array_free(stage->bodies, TRUE);
   g_hash_table_destroy(stage->fit);
   g_hash_table_destroy(stage->selection);
@@ -46,6 +50,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
+  spore_stage_drop_textures(stage);
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
   spore_stage_place_candidate(stage);

@@ -133,6 +133,7 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
   }
   body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
                                                     body->triangle_count, &body->style);
+  spore_stage_body_lay_texture(stage, body, vertices, body->places);
   if (simulation && body->world_body != SPORE_NO_BODY) spore_stage_body_keep_stain(body, simulation->world, vertices);
 }
 
@@ -176,6 +177,7 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   body->liquid = !asset && is_liquid(body, object, simulation);
   if (body->liquid) return; /* comes with its spheres */
   if (!asset) asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "mesh");
+  else spore_stage_body_find_texture(stage, body, visual);
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
   if (mesh) {
     body->triangles = mesh->triangles;
@@ -322,6 +324,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   clear_points(&body->axis);
   g_free(body->tube.points);
   spore_free(body->own_triangles);
+  spore_free(body->places);
   spore_free(body->edges);
   g_free(body->spheres);
   g_free(body->puffs);

@@ -29,6 +29,8 @@ typedef struct SporeStageBody {
   const guint32 *whole_triangles; /* before the first cut; NULL: there was no cut */
   gsize whole_count;
   SporeSurfaceStyle style;
+  guint texture; /* of the renderer; 0: the surface has none */
+  float *places; /* in the texture: of the mesh's triangles before the first cut, x 3 x 2 */
   /* Of tetrahedra that may be divided: see stage_divide.c. */
   const SporeTetrahedralMesh *cells; /* borrowed from the document; NULL: they cannot be divided */
   guint64 lines;                     /* number of the knots that the mappings belong to, see SporeLines */
@@ -76,6 +78,7 @@ struct SporeStage {
   SporeClip clip;        /* what is not picked */
   GPtrArray *bodies;     /* SporeStageBody * */
   GHashTable *fit;       /* const SporeSphereSet * -> SporeStageFit * */
+  GHashTable *textures;  /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
@@ -113,6 +116,13 @@ void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, cons
 /* Makes what is drawn follow the divided tetrahedra, and draws the faces that were inside. Positions are set by place.
  * */
 void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
+/* Reads the texture that the visual unit names; what is wrong with the texture is said once. */
+void spore_stage_body_find_texture(SporeStage *stage, SporeStageBody *body, const SporeObject *visual);
+/* Lays the texture over the surface that was just added. places: of its triangles; NULL: nothing is laid. */
+void spore_stage_body_lay_texture(SporeStage *stage, SporeStageBody *body, const double *vertices, const float *places);
+/* The stage's textures: none at first; those that no body has had since the last call are removed. */
+GHashTable *spore_stage_textures_new(void);
+void spore_stage_drop_textures(SporeStage *stage);
 /* Gets the surface ready for stains. vertices: of the surface at rest, borrowed. */
 void spore_stage_body_keep_stain(SporeStageBody *body, const SporeWorld *world, const double *vertices);
 /* Shows the stains of the snapshot on the surface. */

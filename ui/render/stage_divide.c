@@ -100,6 +100,7 @@ static void show_draft(SporeStage *stage, SporeStageBody *body, Draft *draft) {
   mesh.triangles = draft->triangles;
   draft->triangles = NULL;
   spore_stage_body_show_surface(stage, body, &mesh);
+  spore_stage_body_lay_texture(stage, body, mesh.vertices, body->places); /* the triangles keep their order */
   spore_stage_body_stain_anew(body, draft->twins);
   g_free(mesh.vertices);
 }

@@ -33,15 +33,19 @@ void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCu
   uint32_t *left = SPORE_NEW_ARRAY(uint32_t, 3 * body->whole_count);
   if (!left) return;
   gsize count = 0;
-  for (gsize i = 0; i < body->whole_count; i++)
-    if (!spore_triangle_is_cut(mapping, body->whole_triangles + 3 * i, edges))
-      memcpy(left + 3 * count++, body->whole_triangles + 3 * i, 3 * sizeof *left);
+  g_autofree float *places = body->places ? g_new(float, 6 * body->whole_count + 1) : NULL;
+  for (gsize i = 0; i < body->whole_count; i++) {
+    if (spore_triangle_is_cut(mapping, body->whole_triangles + 3 * i, edges)) continue;
+    if (places) memcpy(places + 6 * count, body->places + 6 * i, 6 * sizeof *places);
+    memcpy(left + 3 * count++, body->whole_triangles + 3 * i, 3 * sizeof *left);
+  }
   spore_free(body->own_triangles);
   body->triangles = body->own_triangles = left;
   body->triangle_count = count;
   spore_renderer_remove(stage->renderer, body->surface_handle);
   body->surface_handle = spore_renderer_add_surface(stage->renderer, body->surface.positions, body->surface.count, left,
                                                     count, &body->style);
+  spore_stage_body_lay_texture(stage, body, body->surface.positions, places);
   spore_stage_body_stain_anew(body, NULL);
   spore_renderer_set_visible(stage->renderer, body->surface_handle,
                              stage->options.surfaces && spore_stage_shows(stage, body->object));

@@ -73,18 +73,24 @@ static gboolean is_closed(const double *vertices, gsize vertex_count, const guin
   return spore_triangle_mesh_report(&mesh, &report, NULL) && report.closed && report.volume > 0;
 }
 
+/* Which vertex of the mesh a vertex is that is drawn. */
+static inline gsize vertex_of(const SporeSurfaceGroup *surface, gsize drawn) {
+  return surface->twins ? surface->twins[drawn] : drawn;
+}
+
 static void upload_rest(SporeSurfaceGroup *surface, const double *vertices) {
-  float *rest = g_new(float, 4 * surface->vertex_count);
-  for (gsize v = 0; v < surface->vertex_count; v++) {
+  float *rest = g_new(float, 4 * surface->drawn_count);
+  for (gsize d = 0; d < surface->drawn_count; d++) {
+    gsize v = vertex_of(surface, d);
     double cells[3];
     for (int i = 0; i < 3; i++) {
       cells[i] = (vertices[3 * v + i] - surface->base.origin[i]) / surface->cell;
-      rest[4 * v + i] = (float)cells[i];
+      rest[4 * d + i] = (float)cells[i];
     }
-    rest[4 * v + 3] = mottling(cells);
+    rest[4 * d + 3] = mottling(cells);
   }
   glBindBuffer(GL_ARRAY_BUFFER, surface->rest);
-  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->vertex_count * 4 * sizeof(float)), rest, GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->drawn_count * 4 * sizeof(float)), rest, GL_STATIC_DRAW);
   g_free(rest);
 }
 
@@ -115,7 +121,7 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
   SporeSurfaceGroup *surface = g_new0(SporeSurfaceGroup, 1);
   surface->base.kind = SPORE_DRAW_SURFACE;
   surface->base.visible = TRUE;
-  surface->vertex_count = vertex_count;
+  surface->vertex_count = surface->drawn_count = vertex_count;
   surface->triangle_count = triangle_count;
   surface->triangles = g_memdup2(triangles, triangle_count * 3 * sizeof(guint32));
   surface->normals = g_new(double, 3 * vertex_count);
@@ -139,6 +145,52 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
   return surface;
 }
 
+/* The corners of the triangles as vertices that are drawn: a new one for each place that a vertex has. *places: of each
+ * of them, g_free; returns the indices, triangle_count x 3, g_free. */
+static guint32 *split_vertices(SporeSurfaceGroup *surface, const float *corners, GArray *places) {
+  const guint32 none = G_MAXUINT32;
+  g_autofree guint32 *first = g_new(guint32, surface->vertex_count + 1);
+  g_autoptr(GArray) next = g_array_new(FALSE, FALSE, sizeof(guint32)); /* the next one of the same vertex */
+  g_autoptr(GArray) twins = g_array_new(FALSE, FALSE, sizeof(guint32));
+  guint32 *indices = g_new(guint32, 3 * surface->triangle_count + 1);
+  memset(first, 0xff, surface->vertex_count * sizeof *first);
+  for (gsize i = 0; i < 3 * surface->triangle_count; i++) {
+    guint32 vertex = surface->triangles[i], drawn = first[vertex];
+    while (drawn != none && memcmp(&g_array_index(places, float, 2 * drawn), corners + 2 * i, 2 * sizeof *corners) != 0)
+      drawn = g_array_index(next, guint32, drawn);
+    if (drawn == none) {
+      drawn = twins->len;
+      g_array_append_val(twins, vertex);
+      g_array_append_val(next, first[vertex]);
+      g_array_append_vals(places, corners + 2 * i, 2);
+      first[vertex] = drawn;
+    }
+    indices[i] = drawn;
+  }
+  surface->drawn_count = twins->len;
+  surface->twins = (guint32 *)g_array_free(g_steal_pointer(&twins), FALSE);
+  return indices;
+}
+
+void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const SporeTextureImage *texture,
+                       const float *places) {
+  g_autoptr(GArray) drawn = g_array_new(FALSE, FALSE, sizeof(float));
+  g_autofree guint32 *indices = split_vertices(surface, places, drawn);
+  surface->texture = texture;
+  upload_rest(surface, vertices);
+  spore_surface_move(surface, vertices);
+  glGenBuffers(1, &surface->places);
+  glBindVertexArray(surface->vertex_array);
+  glBindBuffer(GL_ARRAY_BUFFER, surface->places);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(drawn->len * sizeof(float)), drawn->data, GL_STATIC_DRAW);
+  glEnableVertexAttribArray(5);
+  glVertexAttribPointer(5, 2, GL_FLOAT, GL_FALSE, 0, NULL);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface->indices);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(surface->triangle_count * 3 * sizeof *indices), indices,
+               GL_STATIC_DRAW);
+  glBindVertexArray(0);
+}
+
 gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface) {
   return surface->closed && !surface->values && !surface->style.wireframe;
 }
@@ -147,7 +199,7 @@ void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
   spore_drawable_set_bounds(&surface->base, vertices, surface->vertex_count, 3, FALSE, FALSE);
   spore_triangle_mesh_normals(vertices, surface->vertex_count, surface->triangles, surface->triangle_count,
                               surface->normals);
-  GLsizeiptr size = (GLsizeiptr)(surface->vertex_count * 6 * sizeof(float));
+  GLsizeiptr size = (GLsizeiptr)(surface->drawn_count * 6 * sizeof(float));
   glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
   glBufferData(GL_ARRAY_BUFFER, size, NULL,
                GL_STREAM_DRAW); /* gives a new buffer while the last frame still reads the old one */
@@ -155,19 +207,24 @@ void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
       size ? glMapBufferRange(GL_ARRAY_BUFFER, 0, size, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT) : NULL;
   if (!out) return;
   const double *origin = surface->base.origin, *normals = surface->normals;
-  for (gsize v = 0; v < surface->vertex_count; v++, out += 6)
+  for (gsize d = 0; d < surface->drawn_count; d++, out += 6) {
+    gsize v = vertex_of(surface, d);
     for (int i = 0; i < 3; i++) {
       out[i] = (float)(vertices[3 * v + i] - origin[i]);
       out[3 + i] = (float)normals[3 * v + i];
     }
+  }
   glUnmapBuffer(GL_ARRAY_BUFFER);
 }
 
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain) {
   gboolean first = surface->stain == 0;
   if (first) glGenBuffers(1, &surface->stain);
+  g_autofree float *drawn = surface->twins ? g_new(float, surface->drawn_count) : NULL;
+  for (gsize d = 0; drawn && d < surface->drawn_count; d++) drawn[d] = stain[surface->twins[d]];
   glBindBuffer(GL_ARRAY_BUFFER, surface->stain);
-  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->vertex_count * sizeof *stain), stain, GL_DYNAMIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->drawn_count * sizeof *stain), drawn ? drawn : stain,
+               GL_DYNAMIC_DRAW);
   if (!first) return;
   glBindVertexArray(surface->vertex_array);
   glEnableVertexAttribArray(4);
@@ -194,22 +251,42 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
 }
 
+static gboolean is_drawn(const SporeDrawable *drawable, gboolean colours) {
+  return drawable && drawable->visible && drawable->kind == SPORE_DRAW_SURFACE &&
+         (colours || !((const SporeSurfaceGroup *)drawable)->style.wireframe);
+}
+
+/* Draws those with a texture, or those without one. Depth is drawn of all alike, by the program of those without. */
+static gboolean draw_kind(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
+                          gboolean textured, GError **error) {
+  const SporeProgram *program = NULL;
+  const SporeProgramKind kind = textured ? SPORE_PROGRAM_TEXTURED_SURFACE : SPORE_PROGRAM_SURFACE;
+  gboolean colours = variant < SPORE_VARIANT_DEPTH;
+  for (guint i = 0; i < drawables->len; i++) {
+    const SporeSurfaceGroup *surface = drawables->pdata[i];
+    if (!is_drawn(drawables->pdata[i], colours) || (colours && surface->texture != NULL) != textured) continue;
+    if (!program) {
+      program = spore_programs_get(programs, kind, variant, error);
+      if (!program) return FALSE;
+      glUseProgram(program->id);
+    }
+    if (textured) {
+      glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_TEXTURE);
+      glBindTexture(GL_TEXTURE_2D, surface->texture->id);
+    }
+    draw_surface(surface, frame, program, colours);
+  }
+  return TRUE;
+}
+
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, GError **error) {
   if (!spore_drawables_show(drawables, SPORE_DRAW_SURFACE)) return TRUE;
-  const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_SURFACE, variant, error);
-  if (!program) return FALSE;
-  gboolean colours = variant < SPORE_VARIANT_DEPTH;
-  glUseProgram(program->id);
   spore_frame_clip(frame, TRUE);
-  for (guint i = 0; i < drawables->len; i++) {
-    const SporeDrawable *drawable = drawables->pdata[i];
-    if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
-    const SporeSurfaceGroup *surface = (const SporeSurfaceGroup *)drawable;
-    if (colours || !surface->style.wireframe) draw_surface(surface, frame, program, colours);
-  }
+  gboolean done = draw_kind(drawables, frame, programs, variant, FALSE, error) &&
+                  draw_kind(drawables, frame, programs, variant, TRUE, error);
   spore_frame_clip(frame, FALSE);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  return TRUE;
+  return done;
 }
