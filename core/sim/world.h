@@ -171,6 +171,7 @@ size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
 typedef struct SporeStainPlaces {
   size_t start, count; /* in the stains of snapshots */
   const double *rest;  /* count x 3, body's frame at rest, m; owned by the world, and never changed */
+  const float *out;    /* count x 3: unit vectors out of the body; likewise */
 } SporeStainPlaces;
 SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body);
 /* Mean stain of these places now, 0..1. A stain is seen and changes nothing else: state and hashes are without it. */

@@ -134,7 +134,8 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
   body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
                                                     body->triangle_count, &body->style);
   spore_stage_body_lay_texture(stage, body, vertices, body->places);
-  if (simulation && body->world_body != SPORE_NO_BODY) spore_stage_body_keep_stain(body, simulation->world, vertices);
+  if (simulation && body->world_body != SPORE_NO_BODY)
+    spore_stage_body_keep_stain(stage, body, simulation->world, vertices);
 }
 
 /* Puffs instead of a surface and spheres. */

@@ -124,7 +124,8 @@ void spore_stage_body_lay_texture(SporeStage *stage, SporeStageBody *body, const
 GHashTable *spore_stage_textures_new(void);
 void spore_stage_drop_textures(SporeStage *stage);
 /* Gets the surface ready for stains. vertices: of the surface at rest, borrowed. */
-void spore_stage_body_keep_stain(SporeStageBody *body, const SporeWorld *world, const double *vertices);
+void spore_stage_body_keep_stain(SporeStage *stage, SporeStageBody *body, const SporeWorld *world,
+                                 const double *vertices);
 /* Shows the stains of the snapshot on the surface. */
 void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const SporeSnapshot *snapshot);
 /* The surface is another one: it is stained anew. twins: the vertex of the surface at the start that each of its

@@ -1,5 +1,6 @@
 /* Blood on the surface of a body. The simulation knows how much each of many places on the body's collision spheres
- * is stained; a vertex shows what the places nearest to it have, as both lay at rest. */
+ * is stained; a vertex shows what the places nearest to it have, as both lay at rest. On a closed surface these are
+ * places on the vertex's side: the outside of a bowl is clean though blood stands in it. */
 #include <math.h>
 #include <string.h>
 
@@ -7,17 +8,21 @@
 
 #define NEAR 4        /* places that a vertex is stained by */
 #define CELLS_MOST 64 /* cells along an axis */
+#define SIDE 0.5      /* cosine between a vertex's normal and the way out of a place: above, they are on one side */
+#define BEYOND 8      /* cells: where none is so near on a vertex's side, places of the other side will do */
 
 struct SporeStageStain {
   gsize vertex_count, place_count, place_start; /* start: in the stains of snapshots */
   const double *vertices;                       /* vertex_count x 3, at rest, borrowed */
   const double *places;                         /* place_count x 3, at rest; of the world */
+  const float *out;                             /* place_count x 3; likewise */
   guint32 *near;                                /* vertex_count x NEAR; NULL: nothing was stained yet */
   float *share;                                 /* of each, which add up to 1 */
   float *amount;                                /* place_count, as shown */
   guint32 *twins;                               /* of each vertex that is drawn now; NULL: the vertex itself */
   guint64 shown;                                /* SporeSnapshot.stained */
   gboolean anew;                                /* the surface does not show `amount` yet */
+  gboolean closed;                              /* the surface at the start */
 };
 
 /* Places by cells of a grid around them. */
@@ -79,18 +84,31 @@ static void meet(Nearest *nearest, const double *place, guint32 index, const dou
   nearest->count = MIN(nearest->count + 1, NEAR + 1);
 }
 
-static Nearest find_nearest(const SporeStageStain *stain, const Cells *cells, const double *vertex) {
-  Nearest nearest = {0};
+/* The places of a cell, all of them and those on the side of the normal; normal: NULL: there are no sides. */
+static void meet_cell(const SporeStageStain *stain, const Cells *cells, const int *at, const double *vertex,
+                      const double *normal, Nearest *any, Nearest *beside) {
+  for (guint32 i = cells->first[cell_of(cells, at)]; i != G_MAXUINT32; i = cells->next[i]) {
+    const float *out = stain->out + 3 * (gsize)i;
+    meet(any, stain->places + 3 * (gsize)i, i, vertex);
+    if (!normal || normal[0] * (double)out[0] + normal[1] * (double)out[1] + normal[2] * (double)out[2] > SIDE)
+      meet(beside, stain->places + 3 * (gsize)i, i, vertex);
+  }
+}
+
+/* Looks into cells farther and farther away. */
+static Nearest find_nearest(const SporeStageStain *stain, const Cells *cells, const double *vertex,
+                            const double *normal) {
+  Nearest any = {0}, beside = {0};
   int middle[3], at[3];
   find_cell(cells, vertex, middle);
-  for (at[0] = MAX(middle[0] - 1, 0); at[0] <= MIN(middle[0] + 1, cells->count[0] - 1); at[0]++)
-    for (at[1] = MAX(middle[1] - 1, 0); at[1] <= MIN(middle[1] + 1, cells->count[1] - 1); at[1]++)
-      for (at[2] = MAX(middle[2] - 1, 0); at[2] <= MIN(middle[2] + 1, cells->count[2] - 1); at[2]++)
-        for (guint32 i = cells->first[cell_of(cells, at)]; i != G_MAXUINT32; i = cells->next[i])
-          meet(&nearest, stain->places + 3 * (gsize)i, i, vertex);
-  for (guint32 i = 0; nearest.count == 0 && i < stain->place_count; i++) /* a vertex far from all places */
-    meet(&nearest, stain->places + 3 * (gsize)i, i, vertex);
-  return nearest;
+  for (int far = 1; beside.count == 0 && far <= CELLS_MOST && !(any.count > 0 && far > BEYOND); far++)
+    for (at[0] = MAX(middle[0] - far, 0); at[0] <= MIN(middle[0] + far, cells->count[0] - 1); at[0]++)
+      for (at[1] = MAX(middle[1] - far, 0); at[1] <= MIN(middle[1] + far, cells->count[1] - 1); at[1]++)
+        for (at[2] = MAX(middle[2] - far, 0); at[2] <= MIN(middle[2] + far, cells->count[2] - 1); at[2]++) {
+          int apart = MAX(MAX(ABS(at[0] - middle[0]), ABS(at[1] - middle[1])), ABS(at[2] - middle[2]));
+          if (far == 1 || apart == far) meet_cell(stain, cells, at, vertex, normal, &any, &beside);
+        }
+  return beside.count > 0 ? beside : any;
 }
 
 /* Shares fall to 0 toward the place that is one too many, so that none jumps from vertex to vertex. */
@@ -109,13 +127,19 @@ static void fill_shares(SporeStageStain *stain, gsize vertex, const Nearest *nea
   }
 }
 
-static void find_shares(SporeStageStain *stain) {
+static void find_shares(SporeStageStain *stain, const SporeStageBody *body) {
   Cells cells = sort_places(stain);
+  gboolean sides = stain->closed && (body->whole_triangles || body->surface.count == stain->vertex_count);
+  g_autofree double *normals = sides ? g_new(double, 3 * stain->vertex_count) : NULL;
+  const guint32 *triangles = body->whole_triangles ? body->whole_triangles : body->triangles;
+  if (sides)
+    spore_triangle_mesh_normals(stain->vertices, stain->vertex_count, triangles,
+                                body->whole_triangles ? body->whole_count : body->triangle_count, normals);
   stain->near = g_new(guint32, NEAR * stain->vertex_count);
   stain->share = g_new(float, NEAR * stain->vertex_count);
   stain->amount = g_new0(float, stain->place_count);
   for (gsize v = 0; v < stain->vertex_count; v++) {
-    Nearest nearest = find_nearest(stain, &cells, stain->vertices + 3 * v);
+    Nearest nearest = find_nearest(stain, &cells, stain->vertices + 3 * v, sides ? normals + 3 * v : NULL);
     fill_shares(stain, v, &nearest);
   }
   g_free(cells.first);
@@ -143,7 +167,7 @@ void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const Spore
   gsize size = stain->place_count * sizeof *amount;
   stain->shown = snapshot->stained;
   if (!stain->near && is_clean(amount, stain->place_count)) return;
-  if (!stain->near) find_shares(stain);
+  if (!stain->near) find_shares(stain, body);
   if (!stain->anew && memcmp(stain->amount, amount, size) == 0) return;
   memcpy(stain->amount, amount, size);
   stain->anew = FALSE;
@@ -152,7 +176,8 @@ void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const Spore
   spore_renderer_stain_surface(stage->renderer, body->surface_handle, values);
 }
 
-void spore_stage_body_keep_stain(SporeStageBody *body, const SporeWorld *world, const double *vertices) {
+void spore_stage_body_keep_stain(SporeStage *stage, SporeStageBody *body, const SporeWorld *world,
+                                 const double *vertices) {
   SporeStainPlaces places = spore_world_stain_places(world, body->world_body);
   if (places.count == 0) return;
   SporeStageStain *stain = body->stain = g_new0(SporeStageStain, 1);
@@ -161,6 +186,8 @@ void spore_stage_body_keep_stain(SporeStageBody *body, const SporeWorld *world, 
   stain->place_count = places.count;
   stain->place_start = places.start;
   stain->places = places.rest;
+  stain->out = places.out;
+  stain->closed = spore_renderer_fills_surface(stage->renderer, body->surface_handle);
   stain->anew = TRUE;
 }
 

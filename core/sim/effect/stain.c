@@ -103,6 +103,12 @@ static bool is_inside(const SporeSphereSet *set, const Beside *beside, size_t i,
   return false;
 }
 
+static void keep_place(SporeStainUnit *unit, size_t index, const double *sphere, SporeVec3 place) {
+  spore_vec3_store(unit->rest + 3 * index, place);
+  for (size_t k = 0; k < 3; k++)
+    unit->out[3 * index + k] = (float)((unit->rest[3 * index + k] - sphere[k]) / sphere[3]);
+}
+
 /* Lays places on all spheres: counts them, and keeps them where there is room. */
 static void lay(SporeStainUnit *unit, const SporeSphereSet *set, double spacing, const Beside *beside) {
   size_t count = 0;
@@ -113,7 +119,7 @@ static void lay(SporeStainUnit *unit, const SporeSphereSet *set, double spacing,
     for (size_t k = 0; k < n; k++) {
       SporeVec3 place = on_sphere(sphere, k, n);
       if (is_inside(set, beside, i, place)) continue;
-      if (unit->rest) spore_vec3_store(unit->rest + 3 * count, place);
+      if (unit->rest) keep_place(unit, count, sphere, place);
       count++;
     }
   }
@@ -128,7 +134,8 @@ static bool lay_places(SporeStainUnit *unit, const SporeSphereSet *set, double s
   if (made) {
     lay(unit, set, spacing, &beside);
     unit->rest = SPORE_NEW_ARRAY(double, 3 * unit->count);
-    made = unit->rest != NULL;
+    unit->out = SPORE_NEW_ARRAY(float, 3 * unit->count);
+    made = unit->rest && unit->out;
   }
   if (made) lay(unit, set, spacing, &beside);
   spore_free(beside.start);
@@ -180,6 +187,7 @@ void spore_world_clear_stains(SporeWorld *world) {
   SporeStains *stains = &world->stains;
   for (size_t b = 0; stains->units && b < world->body_count; b++) {
     spore_free(stains->units[b].rest);
+    spore_free(stains->units[b].out);
     spore_free(stains->units[b].first);
     spore_mapping_clear(&stains->units[b].mapping);
   }
@@ -270,7 +278,7 @@ SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body
   assert(body < world->body_count);
   if (!world->stains.units) return (SporeStainPlaces){0};
   const SporeStainUnit *unit = &world->stains.units[body];
-  return (SporeStainPlaces){unit->start, unit->count, unit->rest};
+  return (SporeStainPlaces){unit->start, unit->count, unit->rest, unit->out};
 }
 
 double spore_world_stained(const SporeWorld *world, uint32_t body) {

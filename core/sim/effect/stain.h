@@ -9,6 +9,7 @@
 typedef struct SporeStainUnit {
   size_t start, count; /* of its places among all */
   double *rest;        /* count x 3, body's frame at rest, m */
+  float *out;          /* count x 3: unit vectors out of the spheres that the places are on */
   uint32_t *first;     /* of each sphere the first of its places, and one more */
   SporeMapping mapping;
 } SporeStainUnit;
