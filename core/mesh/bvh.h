@@ -16,6 +16,8 @@ void spore_bvh_free(SporeBvh *bvh);
 SporeVec3 spore_triangle_nearest(SporeVec3 p, const double *corners);
 /* Distance (m) from p to the surface, exact; *nearest and *triangle may be NULL. */
 double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle);
+/* The same distance, to the bit, sooner. *nearest: a place of the surface that may be near; becomes the nearest. */
+double spore_bvh_distance_beside(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest);
 /* Generalised winding number (about 1 inside, 0 outside), near triangles exactly, far ones by their
  * first two moments, which errs by up to about 0.03 a shell (Barill et al. 2018, "Fast winding numbers for soups and
  * clouds"). */

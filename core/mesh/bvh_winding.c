@@ -75,11 +75,16 @@ double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p) {
   return spore_bvh_inside(bvh, p) ? distance : -distance;
 }
 
+double spore_bvh_distance_beside(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest) {
+  double below = ROUND * spore_vec3_distance(p, *nearest),
+         distance = spore_bvh_distance_below(bvh, p, below, nearest, NULL);
+  return distance >= below ? spore_bvh_distance(bvh, p, nearest, NULL) : distance; /* both are 0 */
+}
+
 SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
-  SporeBvhKnown here = {.place = p};
-  double below = known->depth != 0 ? ROUND * spore_vec3_distance(p, known->nearest) : HUGE_VAL;
-  here.depth = spore_bvh_distance_below(bvh, p, below, &here.nearest, NULL);
-  if (here.depth >= below) here.depth = spore_bvh_distance(bvh, p, &here.nearest, NULL); /* both are 0 */
+  SporeBvhKnown here = {.place = p, .nearest = known->nearest};
+  here.depth = known->depth != 0 ? spore_bvh_distance_beside(bvh, p, &here.nearest)
+                                 : spore_bvh_distance(bvh, p, &here.nearest, NULL);
   bool same = spore_vec3_distance(p, known->place) < fabs(known->depth);
   if (same ? known->depth < 0 : !spore_bvh_inside(bvh, p)) here.depth = -here.depth;
   return here;

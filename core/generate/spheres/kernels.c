@@ -68,6 +68,15 @@ uint32_t SPORE_LEVEL_NAME(spore_block_between)(const double *x, const double *y,
   return bits;
 }
 
+void SPORE_LEVEL_NAME(spore_block_depths)(const double *x, const double *y, const double *z, const double at[3],
+                                          double radius, double *restrict depth) {
+  double ax = at[0], ay = at[1], az = at[2];
+  for (int k = 0; k < SPORE_BLOCK; k++) {
+    double dx = x[k] - ax, dy = y[k] - ay, dz = z[k] - az;
+    depth[k] = radius - sqrt(dx * dx + dy * dy + dz * dz);
+  }
+}
+
 void SPORE_LEVEL_NAME(spore_balls_reach)(const double *x, const double *y, const double *z, const double *r,
                                          size_t count, const double bound[4], uint8_t *restrict reaches) {
   for (size_t i = 0; i < count; i++) {
@@ -127,10 +136,12 @@ static float sum_lanes(const float *lane) {
 static void sum_depths(const SporeWeightedBlock *b, size_t first, float *restrict sum) {
   float all[LANES] = {0};
   for (size_t i = 0; i < b->count; i++) {
+    float *restrict distance = b->distance + SPORE_BLOCK * i + first;
     float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
     for (int k = 0; k < LANES; k++) {
       float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
-      float depth = r - sqrtf(dx * dx + dy * dy + dz * dz);
+      distance[k] = sqrtf(dx * dx + dy * dy + dz * dz);
+      float depth = r - distance[k];
       all[k] += w * (depth > 0 ? depth : 0);
     }
   }
@@ -160,11 +171,12 @@ void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float 
   slopes[5 * b->count] = slope_of_level(b, sum, slope);
   for (size_t i = 0; i < b->count; i++) {
     float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
+    const float *distances = b->distance + SPORE_BLOCK * i;
     float sx[LANES] = {0}, sy[LANES] = {0}, sz[LANES] = {0}, sr[LANES] = {0}, sw[LANES] = {0};
     for (size_t first = 0; first < SPORE_BLOCK; first += LANES)
       for (int k = 0; k < LANES; k++) {
         float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
-        float distance = sqrtf(dx * dx + dy * dy + dz * dz), depth = r - distance;
+        float distance = distances[first + k], depth = r - distance;
         float s = depth > 0 ? slope[first + k] : 0, along = s / (distance > 1e-12f ? distance : 1e-12f);
         sx[k] += along * dx, sy[k] += along * dy, sz[k] += along * dz, sr[k] += s, sw[k] += s * depth;
       }

@@ -26,6 +26,10 @@ SPORE_DECLARE_KERNEL(double, spore_balls_values, const double *x, const double *
 SPORE_DECLARE_KERNEL(uint32_t, spore_block_between, const double *x, const double *y, const double *z,
                      const double at[3], double inner, double outer);
 
+/* depth[k]: radius - distance from `at` of the SPORE_BLOCK points x, y, z. */
+SPORE_DECLARE_KERNEL(void, spore_block_depths, const double *x, const double *y, const double *z, const double at[3],
+                     double radius, double *depth);
+
 /* reaches[i]: 1 where ball i reaches into the bounding sphere (centre and radius), else 0. */
 SPORE_DECLARE_KERNEL(void, spore_balls_reach, const double *x, const double *y, const double *z, const double *r,
                      size_t count, const double bound[4], uint8_t *reaches);
@@ -56,6 +60,7 @@ typedef struct SporeWeightedBlock {
   const float *x, *y, *z, *r, *weight;       /* count */
   const float *px, *py, *pz, *depth, *share; /* SPORE_BLOCK samples; share: weight of each in the loss */
   float smoothing, level;
+  float *distance; /* scratch, count x SPORE_BLOCK */
 } SporeWeightedBlock;
 
 /* sum[k] = sum_i w_i (r_i - d_i)+ - level of the samples. slopes: derivatives of the loss, count x 5, by x, y, z, r, w,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/generate/spheres/fit.h"
+#include "core/generate/spheres/kernels.h"
 #include "core/math/mat3.h"
 
 #define MOST_FILLED 256
@@ -52,15 +53,18 @@ static void order_by(const double *value, double sign, uint32_t *order, size_t c
 static double missing_depth(const SporeFit *fit, size_t candidate) {
   const SporePoints *points = &fit->samples->points;
   double x = fit->candidates->x[candidate], y = fit->candidates->y[candidate], z = fit->candidates->z[candidate];
-  double r = fit->candidates->r[candidate], sum = 0;
+  double r = fit->candidates->r[candidate], sum = 0, value[SPORE_BLOCK];
   for (size_t b = 0; b < points->block_count; b++) {
     const double *block = points->block + 4 * b;
     double dx = block[0] - x, dy = block[1] - y, dz = block[2] - z, reach = r + block[3];
     if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
-    for (size_t k = b * SPORE_BLOCK; k < (b + 1) * SPORE_BLOCK; k++) {
-      double px = points->x[k] - x, py = points->y[k] - y, pz = points->z[k] - z;
-      double value = r - sqrt(px * px + py * py + pz * pz), more = value - fit->field.best[k];
-      sum += value > 0 && more > 0 ? fit->samples->weight[k] * more : 0;
+    size_t first = b * SPORE_BLOCK;
+    SPORE_KERNEL(spore_block_depths)
+    (points->x + first, points->y + first, points->z + first, (const double[3]){x, y, z}, r, value);
+    for (size_t k = 0; k < SPORE_BLOCK; k++) {
+      double more = value[k] - fit->field.best[first + k];
+      more = value[k] > 0 && more > 0 ? more : 0;
+      sum += fit->samples->weight[first + k] * more;
     }
   }
   return sum;

@@ -79,13 +79,18 @@ static bool outside_points(const SporeSolid *solid, const double *surface, Kinds
   return true;
 }
 
-static bool measure_depths(const SporeSolid *solid, const double *points, size_t count, double *depth,
+/* The depths of the points inside, which are the first `count`, one after another as they are sorted: what is nearest
+ * to one is near the next. False: cancelled. */
+static bool measure_depths(const SporeSolid *solid, const SporePoints *sorted, size_t count, double *depth,
                            const SporeProgressPart *progress, SporeError *error) {
-  for (size_t i = 0; i < count; i++) {
+  SporeVec3 nearest = spore_vec3_load(solid->mesh.vertices + 3 * (size_t)solid->mesh.triangles[0]);
+  for (size_t i = 0; i < sorted->count; i++) {
     if (i % REPORT_EVERY == 0 &&
-        !spore_progress_part(progress, (double)i / (double)count, _("Sampling the solid"), error))
+        !spore_progress_part(progress, (double)i / (double)sorted->count, _("Sampling the solid"), error))
       return false;
-    depth[i] = spore_bvh_distance(solid->bvh, spore_vec3_load(points + 3 * i), NULL, NULL);
+    if (sorted->original[i] >= count) continue;
+    depth[sorted->original[i]] =
+        spore_bvh_distance_beside(solid->bvh, spore_vec3(sorted->x[i], sorted->y[i], sorted->z[i]), &nearest);
   }
   return true;
 }
@@ -105,11 +110,12 @@ static void weigh_kind(const SporeSolid *solid, const double *points, size_t fir
   for (size_t i = first; i < first + count; i++) weight[i] *= whole / sum;
 }
 
-/* Sorts points, depths and weights into blocks. */
-static bool arrange(SporeSamples *samples, const SporeSolid *solid, const double *points, const double *depth,
-                    double *weight, Kinds kinds, SporeError *error) {
+/* Sorts points, depths and weights into blocks; measures the depths of the points inside. */
+static bool arrange(SporeSamples *samples, const SporeSolid *solid, const double *points, double *depth, double *weight,
+                    Kinds kinds, const SporeProgressPart *progress, SporeError *error) {
   size_t count = kinds.interior + kinds.surface + kinds.outside;
   if (!spore_points_create(&samples->points, points, count)) return spore_generate_no_memory(error);
+  if (!measure_depths(solid, &samples->points, kinds.interior, depth, progress, error)) return false;
   size_t padded = samples->points.block_count * SPORE_BLOCK;
   samples->depth = SPORE_NEW_ARRAY(double, padded);
   samples->weight = SPORE_NEW_ARRAY(double, padded);
@@ -141,10 +147,9 @@ bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t
     size_t before = kinds.interior + kinds.surface;
     done = draw_points(solid, false, kinds.interior, random, points, progress, error) &&
            draw_points(solid, true, kinds.surface, random, surface, progress, error) &&
-           measure_depths(solid, points, kinds.interior, depth, progress, error) &&
            outside_points(solid, surface, &kinds, samples->band, random, points + 3 * before, depth + before, progress,
                           error) &&
-           arrange(samples, solid, points, depth, weight, kinds, error);
+           arrange(samples, solid, points, depth, weight, kinds, progress, error);
   }
   spore_free(points);
   spore_free(depth);

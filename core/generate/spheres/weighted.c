@@ -111,14 +111,22 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
   fit->running = SPORE_NEW_ARRAY(double, 2 * unknowns);
   fit->known = SPORE_NEW_ARRAY(double, 4 * n);
   fit->reaches = SPORE_NEW_ARRAY(uint8_t, images);
+  fit->region = SPORE_NEW_ARRAY(double, 4 * (fit->samples.points.group_count / SPORE_WEIGHTED_REGION + 1));
+  fit->listed = SPORE_NEW_ARRAY(uint32_t, images + 1);
+  fit->loaded = SPORE_NEW_ARRAY(float, fit->samples.points.block_count *SPORE_WEIGHTED_COLUMNS *SPORE_BLOCK);
+  fit->distance = SPORE_NEW_ARRAY(float, images *SPORE_BLOCK);
   fit->columns = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images);
   fit->slopes = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images + 1);
   if (!spore_balls_create(&fit->balls, n) || !fit->weights || !fit->sum || !fit->slope || !fit->running ||
-      !fit->known || !fit->reaches || !fit->columns || !fit->slopes ||
-      !spore_weighted_images_create(&fit->images, images) || !spore_weighted_images_create(&fit->near_group, images) ||
+      !fit->known || !fit->reaches || !fit->listed || !fit->region || !fit->loaded || !fit->distance || !fit->columns ||
+      !fit->slopes || !spore_weighted_images_create(&fit->images, images) ||
+      !spore_weighted_images_create(&fit->near_region, images) ||
+      !spore_weighted_images_create(&fit->near_group, images) ||
       !spore_weighted_images_create(&fit->near_block, images))
     return false;
   share_out(&fit->samples, fit->solid);
+  spore_weighted_load_samples(fit);
+  spore_weighted_bound_regions(fit);
   spore_balls_copy(&fit->balls, balls);
   for (size_t i = 0; i < n; i++) {
     fit->weights[i] = n > 1 ? START_WEIGHT : 1;
@@ -128,12 +136,16 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
 }
 
 static void close_fit(SporeWeightedFit *fit) {
-  double *const arrays[] = {fit->weights, fit->sum, fit->slope, fit->running, fit->known};
+  double *const arrays[] = {fit->region, fit->weights, fit->sum, fit->slope, fit->running, fit->known};
   for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) spore_free(arrays[k]);
   spore_weighted_images_clear(&fit->images);
+  spore_weighted_images_clear(&fit->near_region);
   spore_weighted_images_clear(&fit->near_group);
   spore_weighted_images_clear(&fit->near_block);
   spore_free(fit->reaches);
+  spore_free(fit->listed);
+  spore_free(fit->loaded);
+  spore_free(fit->distance);
   spore_free(fit->columns);
   spore_free(fit->slopes);
   spore_balls_clear(&fit->balls);

@@ -5,6 +5,8 @@
 #include "core/generate/spheres/weighted.h"
 
 #define SPORE_WEIGHTED_UNKNOWNS 5 /* of a ball: centre, radius, weight */
+#define SPORE_WEIGHTED_COLUMNS 5  /* of a sample: place, depth, weight */
+#define SPORE_WEIGHTED_REGION 16  /* groups: balls are ruled out for a region, then for a group, then for a block */
 #define SPORE_WEIGHT_LEAST 0.01
 
 /* Balls and their images in the planes, as columns. */
@@ -25,8 +27,12 @@ typedef struct SporeWeightedFit {
   double *slope, *running; /* balls x UNKNOWNS: slope of the loss; x 2: running means of the slope and its square */
   double level_slope, level_running[2]; /* the same for the level */
   double *known; /* balls x 4: place where the depth of a centre was last computed, and that depth */
-  SporeWeightedImages images, near_group, near_block; /* all; scratch: those that reach a group, and a block */
-  uint8_t *reaches;                                   /* scratch, images */
+  SporeWeightedImages images, near_region, near_group, near_block; /* all; scratch: those that reach each */
+  double *region;   /* SPORE_WEIGHTED_REGION groups each, x 4: centre and radius */
+  uint8_t *reaches; /* scratch, images */
+  uint32_t *listed; /* scratch, images + 1 */
+  float *loaded;    /* blocks x COLUMNS x SPORE_BLOCK: samples relative to the block's middle, lengths in `typical` */
+  float *distance;  /* scratch, images x SPORE_BLOCK */
   float *columns, *slopes; /* images x UNKNOWNS, for a block; slopes also has the level's slope */
   size_t image_count;      /* most */
   SporeRandom random;
@@ -37,6 +43,10 @@ typedef struct SporeWeightedFit {
 /* Room for `most` images; false: no memory. */
 bool spore_weighted_images_create(SporeWeightedImages *images, size_t most);
 void spore_weighted_images_clear(SporeWeightedImages *images);
+/* Fills `loaded` from the samples, whose weights are set. */
+void spore_weighted_load_samples(SporeWeightedFit *fit);
+/* Fills `region` from the groups of samples. */
+void spore_weighted_bound_regions(SporeWeightedFit *fit);
 /* Computes the sum at the samples and the slopes of the loss for every `parts`th block, from block `part`. */
 void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts);
 /* The allowed centre for the ball: folded by the symmetry and projected on the planes to which the ball is bound. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/generate/spheres/kernels.h"
 #include "core/generate/spheres/weighted_parts.h"
 
 #define LOOKS 200       /* places that are tried */
@@ -22,9 +23,12 @@ static double loss_at(const SporeWeightedFit *fit, size_t sample, double f) {
 static void add_gains(const SporeWeightedFit *fit, size_t b, SporeVec3 c, double radius, const double *weights,
                       size_t count, double *gains) {
   const SporePoints *points = &fit->samples.points;
-  size_t end = (b + 1) * SPORE_BLOCK < points->count ? (b + 1) * SPORE_BLOCK : points->count;
-  for (size_t k = b * SPORE_BLOCK; k < end; k++) {
-    double depth = radius - spore_vec3_distance(spore_vec3(points->x[k], points->y[k], points->z[k]), c);
+  size_t first = b * SPORE_BLOCK, end = first + SPORE_BLOCK < points->count ? first + SPORE_BLOCK : points->count;
+  double depths[SPORE_BLOCK];
+  SPORE_KERNEL(spore_block_depths)
+  (points->x + first, points->y + first, points->z + first, (const double[3]){c.x, c.y, c.z}, radius, depths);
+  for (size_t k = first; k < end; k++) {
+    double depth = depths[k - first];
     if (depth <= 0) continue;
     double now = loss_at(fit, k, fit->sum[k]);
     for (size_t w = 0; w < count; w++) gains[w] += now - loss_at(fit, k, fit->sum[k] + weights[w] * depth);

@@ -1,4 +1,5 @@
 /* The sum of weighted balls at the samples and its slopes by the balls' unknowns, block by block. */
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -50,14 +51,22 @@ static void find_images(SporeWeightedFit *fit) {
     }
 }
 
-/* Collects those of the images that reach into the bounding sphere. */
+/* Collects those of the images that reach into the bounding sphere. Without a branch, as which ones do is hard to
+ * foretell. */
 static void gather_near(SporeWeightedFit *fit, const SporeWeightedImages *from, const double bound[4],
                         SporeWeightedImages *near) {
+  size_t count = 0;
   SPORE_KERNEL(spore_balls_reach)(from->x, from->y, from->z, from->r, from->count, bound, fit->reaches);
-  near->count = 0;
-  for (size_t n = 0; n < from->count; n++)
-    if (fit->reaches[n])
-      add_image(near, spore_vec3(from->x[n], from->y[n], from->z[n]), from->r[n], from->ball[n], from->planes[n]);
+  for (size_t n = 0; n < from->count; n++) {
+    fit->listed[count] = (uint32_t)n;
+    count += fit->reaches[n];
+  }
+  near->count = count;
+  for (size_t k = 0; k < count; k++) {
+    uint32_t n = fit->listed[k];
+    near->x[k] = from->x[n], near->y[k] = from->y[n], near->z[k] = from->z[n], near->r[k] = from->r[n];
+    near->ball[k] = from->ball[n], near->planes[k] = from->planes[n];
+  }
 }
 
 /* Adds the slopes of the images to their balls, mirrored back. */
@@ -75,27 +84,49 @@ static void add_slopes(SporeWeightedFit *fit, size_t count) {
   fit->level_slope += (double)fit->slopes[SPORE_WEIGHTED_UNKNOWNS * count];
 }
 
-/* The block's samples as columns of SPORE_BLOCK, relative to the block's middle, lengths in `unit`. */
-static void load_samples(const SporeWeightedFit *fit, size_t b, double unit, float columns[][SPORE_BLOCK]) {
+void spore_weighted_load_samples(SporeWeightedFit *fit) {
   const SporePoints *points = &fit->samples.points;
-  const double *middle = points->block + 4 * b;
-  for (size_t k = 0, at = b * SPORE_BLOCK; k < SPORE_BLOCK; k++, at++) {
-    columns[0][k] = (float)((points->x[at] - middle[0]) / unit);
-    columns[1][k] = (float)((points->y[at] - middle[1]) / unit);
-    columns[2][k] = (float)((points->z[at] - middle[2]) / unit);
-    columns[3][k] = (float)(fit->samples.depth[at] / unit);
-    columns[4][k] = (float)fit->samples.weight[at];
+  double unit = fit->samples.typical;
+  for (size_t b = 0; b < points->block_count; b++) {
+    const double *middle = points->block + 4 * b;
+    float *x = fit->loaded + SPORE_WEIGHTED_COLUMNS * SPORE_BLOCK * b, *y = x + SPORE_BLOCK, *z = y + SPORE_BLOCK,
+          *depth = z + SPORE_BLOCK, *weight = depth + SPORE_BLOCK;
+    for (size_t k = 0, at = b * SPORE_BLOCK; k < SPORE_BLOCK; k++, at++) {
+      x[k] = (float)((points->x[at] - middle[0]) / unit);
+      y[k] = (float)((points->y[at] - middle[1]) / unit);
+      z[k] = (float)((points->z[at] - middle[2]) / unit);
+      depth[k] = (float)(fit->samples.depth[at] / unit);
+      weight[k] = (float)fit->samples.weight[at];
+    }
+  }
+}
+
+void spore_weighted_bound_regions(SporeWeightedFit *fit) {
+  const SporePoints *points = &fit->samples.points;
+  for (size_t first = 0; first < points->group_count; first += SPORE_WEIGHTED_REGION) {
+    double *region = fit->region + 4 * (first / SPORE_WEIGHTED_REGION);
+    size_t end = first + SPORE_WEIGHTED_REGION;
+    if (end > points->group_count) end = points->group_count;
+    SporeVec3 sum = spore_vec3(0, 0, 0);
+    for (size_t g = first; g < end; g++) sum = spore_vec3_add(sum, spore_vec3_load(points->group + 4 * g));
+    SporeVec3 centre = spore_vec3_scale(1 / (double)(end - first), sum);
+    spore_vec3_store(region, centre);
+    region[3] = 0;
+    for (size_t g = first; g < end; g++) {
+      const double *group = points->group + 4 * g;
+      region[3] = fmax(region[3], spore_vec3_distance(centre, spore_vec3_load(group)) + group[3] * (1 + 1e-9));
+    }
   }
 }
 
 static void evaluate_block(SporeWeightedFit *fit, size_t b) {
   const double *middle = fit->samples.points.block + 4 * b, unit = fit->samples.typical;
-  float sample[SPORE_WEIGHTED_UNKNOWNS][SPORE_BLOCK], sum[SPORE_BLOCK];
+  const float *sample = fit->loaded + SPORE_WEIGHTED_COLUMNS * SPORE_BLOCK * b;
+  float sum[SPORE_BLOCK];
   float *x = fit->columns, *y = x + fit->image_count, *z = y + fit->image_count, *r = z + fit->image_count,
         *weight = r + fit->image_count;
   const SporeWeightedImages *near = &fit->near_block;
   size_t count = 0;
-  load_samples(fit, b, unit, sample);
   gather_near(fit, &fit->near_group, middle, &fit->near_block);
   for (; count < near->count; count++) {
     x[count] = (float)((near->x[count] - middle[0]) / unit), y[count] = (float)((near->y[count] - middle[1]) / unit);
@@ -108,13 +139,14 @@ static void evaluate_block(SporeWeightedFit *fit, size_t b) {
                               z,
                               r,
                               weight,
-                              sample[0],
-                              sample[1],
-                              sample[2],
-                              sample[3],
-                              sample[4],
+                              sample,
+                              sample + SPORE_BLOCK,
+                              sample + 2 * SPORE_BLOCK,
+                              sample + 3 * SPORE_BLOCK,
+                              sample + 4 * SPORE_BLOCK,
                               (float)(fit->smoothing / unit),
-                              (float)(fit->level / unit)};
+                              (float)(fit->level / unit),
+                              fit->distance};
   SPORE_KERNEL(spore_weighted_slopes)(&block, sum, fit->slopes);
   for (size_t k = 0; k < SPORE_BLOCK; k++) fit->sum[b * SPORE_BLOCK + k] = (double)sum[k] * unit;
   add_slopes(fit, count);
@@ -127,7 +159,9 @@ void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts) {
   memset(fit->slope, 0, SPORE_WEIGHTED_UNKNOWNS * fit->balls.count * sizeof *fit->slope);
   for (size_t g = 0; g < points->group_count; g++) {
     size_t end = (g + 1) * SPORE_GROUP;
-    gather_near(fit, &fit->images, points->group + 4 * g, &fit->near_group);
+    if (g % SPORE_WEIGHTED_REGION == 0)
+      gather_near(fit, &fit->images, fit->region + 4 * (g / SPORE_WEIGHTED_REGION), &fit->near_region);
+    gather_near(fit, &fit->near_region, points->group + 4 * g, &fit->near_group);
     for (size_t b = g * SPORE_GROUP; b < end && b < points->block_count; b++)
       if (b % parts == part) evaluate_block(fit, b);
   }
