@@ -122,8 +122,8 @@ bool spore_field_create(SporeField *field, const SporePoints *points, size_t bal
                         .second = SPORE_NEW_ARRAY(double, padded),
                         .owner = SPORE_NEW_ARRAY(uint32_t, padded),
                         .value = SPORE_NEW_ARRAY(double, ball_count),
-                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count + 1),
-                        .listed = SPORE_NEW_ARRAY(uint32_t, ball_count + 1),
+                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count),
+                        .listed = SPORE_NEW_ARRAY(uint32_t, ball_count),
                         .local = SPORE_NEW_ARRAY(float, 5 * ball_count),
                         .capacity = ball_count};
   if (spore_balls_create(&field->near, ball_count) && field->best && field->second && field->owner && field->value &&

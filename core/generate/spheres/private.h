@@ -43,8 +43,8 @@ typedef struct SporeField {
   uint32_t *owner;
   double *value;    /* scratch, balls */
   SporeBalls near;  /* scratch: the balls that may own a point of a group */
-  uint32_t *number; /* balls + 1: indices of the near balls */
-  uint32_t *listed; /* scratch, balls + 1: which of the near balls may own a point of a block */
+  uint32_t *number; /* balls: indices of the near balls */
+  uint32_t *listed; /* scratch, balls: which of the near balls may own a point of a block */
   float *local;     /* scratch: 5 columns of `capacity` */
   size_t capacity;  /* balls */
 } SporeField;

@@ -112,7 +112,7 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
   fit->known = SPORE_NEW_ARRAY(double, 4 * n);
   fit->reaches = SPORE_NEW_ARRAY(uint8_t, images);
   fit->region = SPORE_NEW_ARRAY(double, 4 * (fit->samples.points.group_count / SPORE_WEIGHTED_REGION + 1));
-  fit->listed = SPORE_NEW_ARRAY(uint32_t, images + 1);
+  fit->listed = SPORE_NEW_ARRAY(uint32_t, images);
   fit->loaded = SPORE_NEW_ARRAY(float, fit->samples.points.block_count *SPORE_WEIGHTED_COLUMNS *SPORE_BLOCK);
   fit->distance = SPORE_NEW_ARRAY(float, images *SPORE_BLOCK);
   fit->columns = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images);

@@ -30,7 +30,7 @@ typedef struct SporeWeightedFit {
   SporeWeightedImages images, near_region, near_group, near_block; /* all; scratch: those that reach each */
   double *region;   /* SPORE_WEIGHTED_REGION groups each, x 4: centre and radius */
   uint8_t *reaches; /* scratch, images */
-  uint32_t *listed; /* scratch, images + 1 */
+  uint32_t *listed; /* scratch, images     */
   float *loaded;    /* blocks x COLUMNS x SPORE_BLOCK: samples relative to the block's middle, lengths in `typical` */
   float *distance;  /* scratch, images x SPORE_BLOCK */
   float *columns, *slopes; /* images x UNKNOWNS, for a block; slopes also has the level's slope */
