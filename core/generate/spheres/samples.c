@@ -65,7 +65,7 @@ static bool outside_points(const SporeSolid *solid, const double *surface, Kinds
                            SporeError *error) {
   size_t found = 0, wanted = kinds->outside;
   for (size_t i = 0; found < wanted && i < 3 * wanted; i++) {
-    if (i % REPORT_EVERY == 0 && !spore_progress_part(progress, 1, _("Sampling the solid"), error)) return false;
+    if (i % REPORT_EVERY == 0 && !spore_progress_part(progress, 0, _("Sampling the solid"), error)) return false;
     double u = 1 - spore_random_unit(random), distance = band * sqrt(-2 * log(u));
     SporeVec3 p = spore_vec3_add_scaled(spore_vec3_load(surface + 3 * (i % kinds->surface)),
                                         distance * (1 - 2 * spore_random_unit(random)), spore_random_direction(random));
