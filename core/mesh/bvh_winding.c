@@ -1,9 +1,7 @@
-/* Winding numbers, and the signed depth that follows from them. */
+/* Winding numbers. */
 #include <math.h>
 
 #include "core/mesh/bvh_node.h"
-
-#define ROUND (1 + 1e-9)
 
 /* A sum of angles, kept as a product of complex numbers of about unit length and a number of full turns. A query then
  * needs only one atan2. */
@@ -68,24 +66,4 @@ double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p) {
   }
   double near = 2 * (atan2(angle.imaginary, angle.real) + 2 * M_PI * angle.turns);
   return (near + far) / (4 * M_PI);
-}
-
-double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p) {
-  double distance = spore_bvh_distance(bvh, p, NULL, NULL);
-  return spore_bvh_inside(bvh, p) ? distance : -distance;
-}
-
-double spore_bvh_distance_beside(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest) {
-  double below = ROUND * spore_vec3_distance(p, *nearest),
-         distance = spore_bvh_distance_below(bvh, p, below, nearest, NULL);
-  return distance >= below ? spore_bvh_distance(bvh, p, nearest, NULL) : distance; /* both are 0 */
-}
-
-SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
-  SporeBvhKnown here = {.place = p, .nearest = known->nearest};
-  here.depth = known->depth != 0 ? spore_bvh_distance_beside(bvh, p, &here.nearest)
-                                 : spore_bvh_distance(bvh, p, &here.nearest, NULL);
-  bool same = spore_vec3_distance(p, known->place) < fabs(known->depth);
-  if (same ? known->depth < 0 : !spore_bvh_inside(bvh, p)) here.depth = -here.depth;
-  return here;
 }
