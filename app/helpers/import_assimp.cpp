@@ -22,6 +22,9 @@
 #include <assimp/scene.h>
 
 extern "C" {
+#if SPORE_HAVE_JPEG
+#include "app/helpers/photograph.h"
+#endif
 #include "core/io/import_wire.h"
 }
 
@@ -149,6 +152,21 @@ const aiTexture *picture_of(const aiScene &scene, const aiMesh &mesh, bool *text
   return fits ? picture : nullptr;
 }
 
+/* The picture as PNG where it is a photograph that can be decoded, else as it is in the file. */
+std::string content_of(const aiTexture &picture) {
+#if SPORE_HAVE_JPEG
+  void *png;
+  size_t size;
+  if (spore_photograph_is(picture.pcData, picture.mWidth) &&
+      spore_photograph_convert(picture.pcData, picture.mWidth, &png, &size)) {
+    const std::string content(static_cast<const char *>(png), size);
+    std::free(png);
+    return content;
+  }
+#endif
+  return std::string(reinterpret_cast<const char *>(picture.pcData), picture.mWidth);
+}
+
 /* Takes the picture that all meshes of the node wear. */
 void take_picture(const aiScene &scene, const aiNode &node, Mesh &mesh, SporeImportPart &part) {
   const aiTexture *common = nullptr;
@@ -165,8 +183,7 @@ void take_picture(const aiScene &scene, const aiNode &node, Mesh &mesh, SporeImp
                                   [common](const Picture &picture) { return picture.of == common; });
   if (found == mesh.pictures.end() && mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) return;
   part.picture = static_cast<uint32_t>(found - mesh.pictures.begin() + 1);
-  if (found == mesh.pictures.end())
-    mesh.pictures.push_back({common, std::string(reinterpret_cast<const char *>(common->pcData), common->mWidth)});
+  if (found == mesh.pictures.end()) mesh.pictures.push_back({common, content_of(*common)});
 }
 
 /* The meshes of a node differ only in material. Together they are one part. */

@@ -402,15 +402,29 @@ def import_keeps_the_picture_of_a_mesh():
     assert visuals[0].get("colour") == "1 1 1" and visuals[0].get("texture_places") != visuals[1].get("texture_places")
     says = lambda: " ".join(d["message"] for d in report("check", "worn/a.spore")["diagnostics"])
     assert "texture" not in says() and "picture" not in says(), says()
+    lost = report("export", "worn/a.spore", "--format", "gltf", "-o", "worn/a.glb")["lost"]
+    assert any("picture on its surface" in sentence for sentence in lost), lost
     places = WORK / "worn" / visuals[0].get("texture_places")
     places.write_text("\n".join(places.read_text().splitlines()[:-1]))
     assert "expected exactly" in says()
     (WORK / "worn" / visuals[0].get("texture")).unlink()
     assert visuals[0].get("texture") in says()
-    file("photo.gltf", shapes.textured_gltf(*shapes.sphere(), b"\xff\xd8\xff\xe0" + bytes(60), "image/jpeg"))
-    plain = report("import", "photo.gltf", "-o", "worn/b.spore")
-    assert any("no PNG" in d["message"] for d in plain["diagnostics"]), plain["diagnostics"]
-    assert "texture" not in (WORK / "worn/b.spore").read_text()
+
+
+@check
+def import_keeps_photographs_as_png():
+    """A JPEG on a mesh becomes a PNG of its colours; one that is cut off is left away in words."""
+    if "assimp" not in FEATURES:
+        raise Skip("built without assimp")
+    for name, content in (("whole", shapes.PHOTOGRAPH), ("short", shapes.PHOTOGRAPH[:-20])):
+        file(f"{name}.gltf", shapes.textured_gltf(*shapes.sphere(), content, "image/jpeg"))
+        found = report("import", f"{name}.gltf", "-o", f"photo/{name}.spore")["diagnostics"]
+        kept = xml.etree.ElementTree.parse(WORK / f"photo/{name}.spore").find(".//visual").get("texture")
+        assert (kept is not None) == (name == "whole" and "jpeg" in FEATURES), (name, kept)
+        assert (kept is None) == any("no PNG" in d["message"] for d in found), (name, found)
+        if kept:
+            picture = (WORK / "photo" / kept).read_bytes()
+            assert picture[:4] == b"\x89PNG" and picture[16:24] == bytes([0, 0, 0, 8] * 2), picture[:40]
 
 
 @check

@@ -58,10 +58,20 @@ void spore_export_lose_sections(SporeExport *export, gboolean links) {
       spore_export_lose(export, g_strdup(_(sections[i].sentence)));
 }
 
+static void lose_textures(SporeExport *export) {
+  const SporeObject *bodies = spore_document_section(export->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *body = spore_object_child(bodies, i), *visual = spore_object_child_of(body, "visual");
+    if (visual && spore_object_text(visual, "texture"))
+      spore_export_lose(export, g_strdup_printf(_("%s: the picture on its surface"), spore_object_name(body)));
+  }
+}
+
 void spore_export_lose_physics(SporeExport *export, gboolean colours) {
   spore_export_lose_sections(export, TRUE);
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
+  lose_textures(export);
 }
 
 gboolean spore_export_refuse_empty(const SporeExport *export, GError **error) {
