@@ -291,7 +291,8 @@ double spore_world_stained(const SporeWorld *world, uint32_t body) {
 void spore_world_carry_stain(SporeWorld *to, uint32_t body, const SporeWorld *from, uint32_t old) {
   SporeStainPlaces there = spore_world_stain_places(to, body), here = spore_world_stain_places(from, old);
   size_t size = 3 * here.count * sizeof *here.rest;
-  if (from->stains.number == 0 || there.count != here.count || memcmp(there.rest, here.rest, size) != 0) return;
+  if (from->stains.number == 0 || here.count == 0 || there.count != here.count) return;
+  if (memcmp(there.rest, here.rest, size) != 0) return;
   memcpy(to->stains.amount + there.start, from->stains.amount + here.start, here.count * sizeof(float));
   to->stains.number++;
 }

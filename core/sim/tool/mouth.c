@@ -36,6 +36,7 @@ static SporeMat3 triangle_of(const SporeEmitter *emitter, const double *q, doubl
 static SporeQuat turn_of(const SporeEmitter *emitter, const double *q) {
   double sine;
   SporeMat3 now = triangle_of(emitter, q, &sine);
+  if (!(spore_vec3_length(spore_mat3_column(now, 0)) > 0)) return (SporeQuat){1, 0, 0, 0}; /* two nodes in one place */
   if (emitter->on_a_line) return spore_quat_between(spore_mat3_column(emitter->triangle, 0), spore_mat3_column(now, 0));
   if (!(sine > 0)) return (SporeQuat){1, 0, 0, 0};
   return spore_quat_from_mat3(spore_mat3_multiply(now, spore_mat3_transpose(emitter->triangle)));
