@@ -31,7 +31,7 @@ typedef struct SporeShellNeighbours {
   size_t side;    /* cells a side, over the shell's box */
   uint32_t *head; /* first entry of each cell */
   size_t count, capacity;
-  uint32_t *entries;     /* triangle, next entry: also those of before a triangle moved, or went */
+  uint32_t *entries; /* triangle, next entry: also those of before a triangle moved, or went */
   SporeNearTriangle *triangles;
   uint32_t asked; /* looks into cells so far */
 } SporeShellNeighbours;
