@@ -7,12 +7,18 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include "core/io/file_batch.h"
 
 #define STATUS_FAULT 3
+#ifdef __SANITIZE_ADDRESS__
+#define SANITIZED true /* the sanitizer tells more of a fault */
+#else
+#define SANITIZED false
+#endif
 
 #define NO_MEMORY                                                                                                      \
   N_("there is not enough memory to go on; nothing is half-written; close other programs, or use fewer or coarser "    \
@@ -49,6 +55,36 @@ static void on_abort(int number) {
   _exit(STATUS_FAULT);
 }
 
+/* Where GLib formats a text and has no memory it says so, for which it formats a text: that ends at the end of the
+ * stack, which cannot grow for want of memory long before its limit. */
+#define SIGNAL_STACK_BYTES (64 * 1024)
+#define LARGEST_STACK ((size_t)64 << 20)
+#define PAGE_BYTES (64 * 1024) /* at least */
+static char signal_stack[SIGNAL_STACK_BYTES];
+static const char *stack_start;
+static size_t stack_most;
+
+static void on_fault(int number, siginfo_t *info, void *context) {
+  const char *place = info->si_addr;
+  signal(number, SIG_DFL);
+  if (place < stack_start && (size_t)(stack_start - place) + PAGE_BYTES < stack_most) {
+    spore_file_batches_withdraw();
+    say(no_memory);
+    say("\n");
+    _exit(STATUS_FAULT);
+  }
+} /* else the same instruction ends the program */
+
+static void catch_faults(const char *start) {
+  const stack_t stack = {.ss_sp = signal_stack, .ss_size = sizeof signal_stack};
+  const struct sigaction action = {.sa_sigaction = on_fault, .sa_flags = SA_SIGINFO | SA_ONSTACK};
+  struct rlimit limit;
+  stack_start = start;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || sigaltstack(&stack, NULL) != 0) return;
+  stack_most = limit.rlim_cur > LARGEST_STACK ? LARGEST_STACK : (size_t)limit.rlim_cur;
+  sigaction(SIGSEGV, &action, NULL);
+}
+
 #define AGAIN_US 20000
 
 /* A file that is being written is written to the end, and then taken back with all that do not stand yet. */
@@ -71,7 +107,9 @@ void spore_ending_on_signals(void) {
 }
 
 void spore_ending_prepare(void) {
+  char here;
   signal(SIGABRT, on_abort);
+  if (!SANITIZED) catch_faults(&here);
   signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of writing, and not the end */
   g_log_set_default_handler(end, NULL);
 }

@@ -2212,9 +2212,10 @@ def short_of_memory():
         low, high = (low, middle) if run(middle, "--version").returncode == 0 else (middle, high)
     for words in (["run", scene, "--steps", 50, "--record", "short.track"], ["run", SCENES / "minimal.spore", "--steps", 50, "--json"],
                   ["check", scene], ["edit", scene, "--probe", "-o", "short/edit/new.spore"], ["import", file("ball.off", shapes.off(*shapes.sphere())), "--unit", "m", "-o", "short/import/ball.spore"]):
-        for extra in range(0, 512): # of 128 KiB
+        fine = range(0, 64) if SCENES / "minimal.spore" in words else () # of 16 KiB
+        for extra in [*(k << 14 for k in fine), *(k << 17 for k in range(0, 512))]:
             file("short.track", old)
-            done = run(high + (extra << 17), *words)
+            done = run(high + extra, *words)
             statuses.add(done.returncode)
             found = words[0] == "check" and done.returncode == 1 # what check prints is what it found
             assert done.returncode in (0, 2, 3) or found and "memory" in done.stdout and "correct it" not in done.stdout, (words, extra, done)
