@@ -74,8 +74,11 @@ static void say_missed(GString *text, const SporeTetrahedralMesh *mesh, const Sp
   if (options->cells && (double)mesh->tetrahedron_count > MANY * (double)options->cells)
     g_string_append_printf(
         text,
-        _("%zu cells were asked for: fewer than %zu would tear thin parts, or make cells too flat; ask for "
-          "more, or give a plainer surface\n"),
+        options->apart
+            ? _("%zu cells were asked for: fewer than %zu would tear thin parts, make cells too flat, or move the "
+                "borders of pieces thinner than the cells; ask for more, merge the pieces, or leave out thin ones\n")
+            : _("%zu cells were asked for: fewer than %zu would tear thin parts, or make cells too flat; ask for "
+                "more, or give a plainer surface\n"),
         options->cells, mesh->tetrahedron_count);
   if (options->fill && report->filled > 0)
     g_string_append_printf(text, _("cavities of %.3g ml were filled\n"), 1e6 * report->filled);
