@@ -124,15 +124,6 @@ static gboolean try_form(Search *search, const Replay *full, guint32 body, const
   return good;
 }
 
-static gboolean refers_to(const SporeObject *object, const SporeObject *target) {
-  const SporeParameterTable *table = spore_object_type(object)->table;
-  for (gsize p = 0; p < table->count; p++)
-    if (table->parameters[p].type == SPORE_REFERENCE &&
-        spore_object_reference(object, table->parameters[p].name) == target)
-      return TRUE;
-  return FALSE;
-}
-
 /* Name of a step of the exercise that is done to the body, and that the run did not do: what the body does for the step
  * was not seen. */
 static const char *awaited_of(const Search *search, const SporeTrial *full, const SporeObject *body) {
@@ -141,7 +132,8 @@ static const char *awaited_of(const Search *search, const SporeTrial *full, cons
     const char *name = spore_exercise_step_state(search->simulation->exercise, i).name;
     for (guint k = 0; !full->steps_done[i] && k < spore_object_child_count(section); k++) {
       const SporeObject *part = spore_object_child(section, k);
-      if (g_strcmp0(spore_object_name(part), name) == 0 && refers_to(part, body)) return spore_object_name(part);
+      if (g_strcmp0(spore_object_name(part), name) == 0 && spore_object_refers_to(part, body))
+        return spore_object_name(part);
     }
   }
   return NULL;
@@ -162,7 +154,7 @@ static const char *holder_of(SporeDocument *document, const SporeObject *body) {
         active |= target && strcmp(spore_object_type(target)->element, "body") == 0 &&
                   (int)spore_object_number(target, "role") == SPORE_ACTIVE;
       }
-      if (active && refers_to(object, body)) return spore_object_name(object);
+      if (active && spore_object_refers_to(object, body)) return spore_object_name(object);
     }
   }
   return NULL;

@@ -86,9 +86,9 @@ static gboolean copy_value(const Mirror *mirror, const SporeObject *from, SporeO
                            GError **error) {
   const SporeParameter *parameter = &spore_object_type(from)->table->parameters[property];
   SporeValue value = *spore_object_value(from, property);
-  SporeObject *named = parameter->type == SPORE_REFERENCE ? spore_object_reference(from, parameter->name) : NULL;
+  SporeObject *named = spore_object_asset(from, property);
   if (parameter->type == SPORE_NAME || !spore_object_is_set(from, property)) return TRUE;
-  if (named && g_str_equal(spore_object_type(spore_object_parent(named))->element, "assets")) {
+  if (named) {
     SporeObject *asset = mirror_asset(mirror, named, error);
     return asset && spore_document_set_text(mirror->document, to, parameter->name, spore_object_name(asset), error);
   }

@@ -40,13 +40,9 @@ static gboolean remove_of_section(SporeDocument *document, const char *element, 
 
 /* Assets that the object and its units name. */
 static void add_assets(const SporeObject *object, GPtrArray *assets) {
-  const SporeParameterTable *table = spore_object_type(object)->table;
-  for (gsize i = 0; i < table->count; i++) {
-    const SporeParameter *parameter = &table->parameters[i];
-    SporeObject *named = parameter->type == SPORE_REFERENCE ? spore_object_reference(object, parameter->name) : NULL;
-    if (named && g_str_equal(spore_object_type(spore_object_parent(named))->element, "assets") &&
-        !g_ptr_array_find(assets, named, NULL))
-      g_ptr_array_add(assets, named);
+  for (guint i = 0; i < spore_object_type(object)->table->count; i++) {
+    SporeObject *named = spore_object_asset(object, i);
+    if (named && !g_ptr_array_find(assets, named, NULL)) g_ptr_array_add(assets, named);
   }
   for (guint i = 0; i < spore_object_child_count(object); i++) add_assets(spore_object_child(object, i), assets);
 }

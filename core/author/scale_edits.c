@@ -50,15 +50,8 @@ static void add_shape(Scaling *scaling, SporeObject *asset) {
   }
 }
 
-/* The asset that a property names; NULL: none. */
-static SporeObject *asset_at(const SporeObject *object, guint property) {
-  const SporeParameter *parameter = &table_of(object)->parameters[property];
-  SporeObject *named = parameter->type == SPORE_REFERENCE ? spore_object_reference(object, parameter->name) : NULL;
-  return named && g_str_equal(spore_object_type(spore_object_parent(named))->element, "assets") ? named : NULL;
-}
-
 static void add_shapes(Scaling *scaling, const SporeObject *object) {
-  for (guint i = 0; i < table_of(object)->count; i++) add_shape(scaling, asset_at(object, i));
+  for (guint i = 0; i < table_of(object)->count; i++) add_shape(scaling, spore_object_asset(object, i));
   for (guint i = 0; i < spore_object_child_count(object); i++) add_shapes(scaling, spore_object_child(object, i));
 }
 
@@ -180,7 +173,7 @@ static gboolean scale_shape(const Scaling *scaling, Shape *shape, GError **error
 
 static gboolean use_scaled(const Scaling *scaling, SporeObject *object, GError **error) {
   for (guint i = 0; i < table_of(object)->count; i++) {
-    SporeObject *asset = asset_at(object, i);
+    SporeObject *asset = spore_object_asset(object, i);
     const Shape *shape = asset ? shape_of(scaling, asset) : NULL;
     if (shape && shape->scaled != asset &&
         !spore_document_set_text(scaling->document, object, table_of(object)->parameters[i].name,

@@ -53,6 +53,8 @@ const char *spore_object_text(const SporeObject *object, const char *property); 
 const SporeTissue *spore_object_tissue(const SporeObject *model);
 /* The object that a reference names; NULL: not set, or nothing has that name. */
 SporeObject *spore_object_reference(const SporeObject *object, const char *property);
+/* The asset that the property of that index names; NULL: it names none. */
+SporeObject *spore_object_asset(const SporeObject *object, guint property);
 /* The mechanical model of a body; NULL: it has none. */
 SporeObject *spore_body_model_object(const SporeObject *body);
 /* Whether a property of the object, or of a child of it, names the target. */

@@ -184,6 +184,12 @@ SporeObject *spore_body_model_object(const SporeObject *body) {
   return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
 }
 
+SporeObject *spore_object_asset(const SporeObject *object, guint property) {
+  const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
+  SporeObject *named = parameter->type == SPORE_REFERENCE ? spore_object_reference(object, parameter->name) : NULL;
+  return named && g_str_equal(spore_object_type(spore_object_parent(named))->element, "assets") ? named : NULL;
+}
+
 gboolean spore_object_refers_to(const SporeObject *object, const SporeObject *target) {
   const SporeParameterTable *table = spore_object_type(object)->table;
   for (gsize i = 0; i < table->count; i++)

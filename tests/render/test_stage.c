@@ -110,6 +110,17 @@ static void test_picked_behind_a_plane(void) {
   setting_close(&setting);
 }
 
+/* What is held falls as the ball does. */
+static void check_falls_along(Setting *setting, const SporeStageHold *hold, SporeVec3 point) {
+  SporeVec3 now;
+  for (int i = 0; i < 60; i++) spore_world_step(setting->simulation->world);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting->simulation->world);
+  spore_stage_update(setting->stage, snapshot);
+  g_assert_true(spore_stage_held(setting->stage, hold, &now));
+  g_assert_cmpfloat_with_epsilon(now.x, point.x, 1e-9);
+  g_assert_cmpfloat_with_epsilon(now.y, point.y - 0.5 * 9.81 * snapshot->time_s * snapshot->time_s, 4e-4);
+}
+
 /* A place on the face of a cut goes with the body, as deep in it as it was picked. From the side that the plane leaves,
  * the surface is picked. */
 static void test_held_within(void) {
@@ -124,12 +135,7 @@ static void test_held_within(void) {
   g_assert_cmpfloat_with_epsilon(point.y, 0.063, 1e-9);
   g_assert_true(spore_stage_held(setting.stage, &hold, &now));
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
-  for (int i = 0; i < 60; i++) spore_world_step(setting.simulation->world);
-  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting.simulation->world);
-  spore_stage_update(setting.stage, snapshot);
-  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
-  g_assert_cmpfloat_with_epsilon(now.x, point.x, 1e-9);
-  g_assert_cmpfloat_with_epsilon(now.y, point.y - 0.5 * 9.81 * snapshot->time_s * snapshot->time_s, 4e-4);
+  check_falls_along(&setting, &hold, point);
   const SporeVec3 below = {0.004, 0.02, 0.003}, up = {0, 1, 0};
   g_assert_cmpuint(spore_stage_pick_hold(setting.stage, below, up, &point, &hold), ==, id_of(&setting, "ball"));
   g_assert_cmpfloat(point.y, <, 0.05);
@@ -148,12 +154,7 @@ static void test_held_places(void) {
   g_assert_cmpuint(spore_stage_pick_hold(setting.stage, above, down, &point, &hold), ==, id_of(&setting, "ball"));
   g_assert_true(spore_stage_held(setting.stage, &hold, &now));
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
-  for (int i = 0; i < 60; i++) spore_world_step(setting.simulation->world);
-  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting.simulation->world);
-  spore_stage_update(setting.stage, snapshot);
-  g_assert_true(spore_stage_held(setting.stage, &hold, &now));
-  g_assert_cmpfloat_with_epsilon(now.x, point.x, 1e-9);
-  g_assert_cmpfloat_with_epsilon(now.y, point.y - 0.5 * 9.81 * snapshot->time_s * snapshot->time_s, 4e-4);
+  check_falls_along(&setting, &hold, point);
   g_assert_true(spore_stage_surface(setting.stage, hold.body, &surface));
   g_assert_cmpuint(surface.vertex_count, ==, hold.count);
   hold.count++;
