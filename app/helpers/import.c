@@ -20,18 +20,18 @@ static const char *const extensions[SPORE_MESH_FORMAT_COUNT] = {[SPORE_MESH_STL]
 #else
 #define BY_ASSIMP refuse
 /* SPORE does not ask for these formats where they are not in the build. */
-static bool refuse(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
-                   SporeHelperFailure *failure) {
+static bool refuse(const char *extension, const SporeImportRequest *head, const char *rest, void **answer,
+                   size_t *answer_size, SporeHelperFailure *failure) {
   _exit(1);
 }
 #endif
 
-static bool decode(uint64_t format, const char *content, size_t size, void **answer, size_t *answer_size,
+static bool decode(const SporeImportRequest *head, const char *rest, void **answer, size_t *answer_size,
                    SporeHelperFailure *failure) {
-  if (format == SPORE_MESH_VTK) return spore_vtk_legacy(content, size, answer, answer_size, failure);
-  if (format == SPORE_MESH_VTP) return spore_vtk_xml(content, size, answer, answer_size, failure);
-  if (format >= SPORE_MESH_FORMAT_COUNT || !extensions[format]) _exit(1);
-  return BY_ASSIMP(extensions[format], content, size, answer, answer_size, failure);
+  if (head->format == SPORE_MESH_VTK) return spore_vtk_legacy(rest, head->size, answer, answer_size, failure);
+  if (head->format == SPORE_MESH_VTP) return spore_vtk_xml(rest, head->size, answer, answer_size, failure);
+  if (head->format >= SPORE_MESH_FORMAT_COUNT || !extensions[head->format]) _exit(1);
+  return BY_ASSIMP(extensions[head->format], head, rest, answer, answer_size, failure);
 }
 
 static bool answer(const uint8_t *request, size_t size, void **answer, size_t *answer_size,
@@ -39,7 +39,7 @@ static bool answer(const uint8_t *request, size_t size, void **answer, size_t *a
   SporeImportRequest head;
   if (size < sizeof head) _exit(1);
   memcpy(&head, request, sizeof head);
-  return decode(head.format, (const char *)request + sizeof head, size - sizeof head, answer, answer_size, failure);
+  return decode(&head, (const char *)request + sizeof head, answer, answer_size, failure);
 }
 
 int main(int argc, char **argv) { spore_helper_serve(argc, argv, answer); }

@@ -86,8 +86,25 @@ void keep_one_importer(Assimp::Importer &importer, const std::string &extension)
   for (Assimp::BaseImporter *other : others) importer.UnregisterLoader(other);
 }
 
+/* The request, taken apart. */
+struct Request {
+  const char *content = nullptr;
+  size_t size = 0;
+  std::vector<SporeImportMaterial> materials;
+  std::vector<SporeImportPicture> pictures;
+  std::vector<const char *> bytes; /* of each picture */
+};
+
+/* A picture in the file, or the number of one beside it, from 1; neither: none. */
+struct Source {
+  const aiTexture *inside = nullptr;
+  size_t beside = 0;
+  bool operator==(const Source &other) const { return inside == other.inside && beside == other.beside; }
+  explicit operator bool() const { return inside || beside; }
+};
+
 struct Picture {
-  const aiTexture *of;
+  Source of;
   std::string bytes;
 };
 
@@ -124,12 +141,27 @@ const aiMaterial *material_of(const aiScene &scene, const aiMesh &mesh) {
   return mesh.mMaterialIndex + 1 < scene.mNumMaterials ? scene.mMaterials[mesh.mMaterialIndex] : nullptr;
 }
 
+/* The material that OBJ gives the mesh, as the file beside it describes it; NULL: it does not. */
+const SporeImportMaterial *described(const aiScene &scene, const aiMesh &mesh, const Request &request) {
+  aiString name;
+  if (request.materials.empty() || scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) != AI_SUCCESS)
+    return nullptr;
+  for (const SporeImportMaterial &material : request.materials)
+    if (std::strncmp(material.name, name.C_Str(), sizeof material.name - 1) == 0) return &material;
+  return nullptr;
+}
+
 /* Takes the colour of the mesh with the most faces. */
-void take_colour(const aiScene &scene, const aiNode &node, SporeImportPart &part) {
+void take_colour(const aiScene &scene, const aiNode &node, const Request &request, SporeImportPart &part) {
   const aiMesh *largest = nullptr;
   for (unsigned m = 0; m < node.mNumMeshes; m++) {
     const aiMesh *mesh = scene.mMeshes[node.mMeshes[m]];
     if (!largest || mesh->mNumFaces > largest->mNumFaces) largest = mesh;
+  }
+  if (const SporeImportMaterial *said = largest ? described(scene, *largest, request) : nullptr) {
+    std::copy(said->colour, said->colour + 3, part.colour);
+    part.coloured = said->coloured;
+    return;
   }
   const aiMaterial *material = largest ? material_of(scene, *largest) : nullptr;
   aiColor4D colour;
@@ -142,52 +174,85 @@ void take_colour(const aiScene &scene, const aiNode &node, SporeImportPart &part
   part.coloured = 1;
 }
 
-/* The picture in the file that the mesh wears; NULL: none, or without places. *textured: its material has one. */
-const aiTexture *picture_of(const aiScene &scene, const aiMesh &mesh, bool *textured) {
-  const aiMaterial *material = material_of(scene, mesh);
-  aiString path;
-  *textured = material && material->GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS;
-  const aiTexture *picture = *textured && mesh.HasTextureCoords(0) ? scene.GetEmbeddedTexture(path.C_Str()) : nullptr;
-  const bool fits = picture && picture->mHeight == 0 && picture->mWidth <= SPORE_IMPORT_PICTURE_BYTES;
-  return fits ? picture : nullptr;
+/* The name of the picture, whose signs may be written as codes. */
+bool is_called(const SporeImportPicture &picture, const char *name) {
+  std::string plain;
+  for (const char *at = picture.name; *at; at++) {
+    unsigned code;
+    if (*at == '%' && std::sscanf(at + 1, "%2x", &code) == 1 && at[1] && at[2])
+      plain += static_cast<char>(code), at += 2;
+    else plain += *at;
+  }
+  return std::strcmp(picture.name, name) == 0 || plain == name;
 }
 
-/* The picture as PNG where it is a photograph that can be decoded, else as it is in the file. */
-std::string content_of(const aiTexture &picture) {
+/* The picture that the material of the mesh names. *dress: what the mesh wears. */
+Source named_by(const aiScene &scene, const aiMesh &mesh, const Request &request, uint32_t *dress) {
+  Source source;
+  const SporeImportMaterial *said = described(scene, mesh, request);
+  const aiMaterial *material = material_of(scene, mesh);
+  aiString path;
+  *dress = SPORE_IMPORT_BARE;
+  if (said) source.beside = said->picture;
+  else if (material && material->GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS) {
+    *dress = SPORE_IMPORT_UNKNOWN;
+    source.inside = scene.GetEmbeddedTexture(path.C_Str());
+    for (size_t i = 0; i < request.pictures.size() && !source; i++)
+      if (is_called(request.pictures[i], path.C_Str())) source.beside = i + 1;
+  }
+  if (source) *dress = SPORE_IMPORT_WORN;
+  return source;
+}
+
+/* The picture that the mesh can wear. */
+Source picture_of(const aiScene &scene, const aiMesh &mesh, const Request &request, uint32_t *dress) {
+  const Source source = named_by(scene, mesh, request, dress);
+  if (!source) return source;
+  const bool fits =
+      !source.inside || (source.inside->mHeight == 0 && source.inside->mWidth <= SPORE_IMPORT_PICTURE_BYTES);
+  *dress = !mesh.HasTextureCoords(0) ? SPORE_IMPORT_UNPLACED : fits ? SPORE_IMPORT_WORN : SPORE_IMPORT_UNKNOWN;
+  return *dress == SPORE_IMPORT_WORN ? source : Source();
+}
+
+/* The picture as PNG where it is a photograph that can be decoded, else as it is in its file. */
+std::string content_of(const Source &source, const Request &request) {
+  const void *bytes =
+      source.inside ? static_cast<const void *>(source.inside->pcData) : request.bytes[source.beside - 1];
+  const size_t size = source.inside ? source.inside->mWidth : request.pictures[source.beside - 1].size;
 #if SPORE_HAVE_JPEG
   void *png;
-  size_t size;
-  if (spore_photograph_is(picture.pcData, picture.mWidth) &&
-      spore_photograph_convert(picture.pcData, picture.mWidth, &png, &size)) {
-    const std::string content(static_cast<const char *>(png), size);
+  size_t png_size;
+  if (spore_photograph_is(bytes, size) && spore_photograph_convert(bytes, size, &png, &png_size)) {
+    const std::string content(static_cast<const char *>(png), png_size);
     std::free(png);
     return content;
   }
 #endif
-  return std::string(reinterpret_cast<const char *>(picture.pcData), picture.mWidth);
+  return std::string(static_cast<const char *>(bytes), size);
 }
 
 /* Takes the picture that all meshes of the node wear. */
-void take_picture(const aiScene &scene, const aiNode &node, Mesh &mesh, SporeImportPart &part) {
-  const aiTexture *common = nullptr;
+void take_picture(const aiScene &scene, const aiNode &node, const Request &request, Mesh &mesh, SporeImportPart &part) {
+  Source common;
   for (unsigned m = 0; m < node.mNumMeshes; m++) {
-    bool textured;
-    const aiTexture *picture = picture_of(scene, *scene.mMeshes[node.mMeshes[m]], &textured);
-    if (m > 0 && picture != common) picture = nullptr;
-    if (textured) part.textured = 1;
-    common = picture;
-    if (!picture) break;
+    uint32_t dress;
+    const Source source = picture_of(scene, *scene.mMeshes[node.mMeshes[m]], request, &dress);
+    if (m == 0) common = source, part.dress = dress;
+    else if (dress != part.dress || !(source == common)) part.dress = SPORE_IMPORT_MIXED;
   }
-  if (!common) return;
+  if (part.dress != SPORE_IMPORT_WORN) return;
   const auto found = std::find_if(mesh.pictures.begin(), mesh.pictures.end(),
-                                  [common](const Picture &picture) { return picture.of == common; });
-  if (found == mesh.pictures.end() && mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) return;
+                                  [&common](const Picture &picture) { return picture.of == common; });
+  if (found == mesh.pictures.end() && mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) {
+    part.dress = SPORE_IMPORT_UNKNOWN;
+    return;
+  }
   part.picture = static_cast<uint32_t>(found - mesh.pictures.begin() + 1);
-  if (found == mesh.pictures.end()) mesh.pictures.push_back({common, content_of(*common)});
+  if (found == mesh.pictures.end()) mesh.pictures.push_back({common, content_of(common, request)});
 }
 
 /* The meshes of a node differ only in material. Together they are one part. */
-void end_part(const aiScene &scene, const aiNode &node, const std::string &group, Mesh &mesh) {
+void end_part(const aiScene &scene, const aiNode &node, const Request &request, const std::string &group, Mesh &mesh) {
   SporeImportPart part = {};
   part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
   if (!part.triangle_count) return;
@@ -196,8 +261,8 @@ void end_part(const aiScene &scene, const aiNode &node, const std::string &group
   if (name.empty()) name = name_of(scene.mMeshes[node.mMeshes[0]]->mName);
   name.copy(part.name, sizeof part.name - 1);
   group.copy(part.group, sizeof part.group - 1);
-  take_colour(scene, node, part);
-  take_picture(scene, node, mesh, part);
+  take_colour(scene, node, request, part);
+  take_picture(scene, node, request, mesh, part);
   mesh.parts.push_back(part);
 }
 
@@ -225,7 +290,8 @@ void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh)
 }
 
 /* group: the names of the nodes that the node lies in. */
-void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, const std::string &group, Mesh &mesh) {
+void append(const aiScene &scene, const aiNode &node, const Request &request, const aiMatrix4x4 &outer,
+            const std::string &group, Mesh &mesh) {
   const aiMatrix4x4 transform = outer * node.mTransformation;
   const bool mirrored = transform.Determinant() < 0;
   for (unsigned m = 0; m < node.mNumMeshes; m++) {
@@ -242,10 +308,10 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
     }
     append_faces(from, first, mirrored, mesh);
   }
-  end_part(scene, node, group, mesh);
+  end_part(scene, node, request, group, mesh);
   const std::string name = name_of(node.mName);
   const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;
-  for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, inner, mesh);
+  for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], request, transform, inner, mesh);
 }
 
 void check_faces(const aiScene &scene) {
@@ -276,10 +342,34 @@ std::string with_leading_zeros(const char *content, size_t size) {
   return text;
 }
 
-Mesh import(const char *extension, const void *content, size_t size) {
+Request take_apart(const SporeImportRequest &head, const char *rest) {
+  Request request;
+  request.materials.resize(head.material_count);
+  for (SporeImportMaterial &material : request.materials) {
+    std::memcpy(&material, rest, sizeof material);
+    rest += sizeof material;
+  }
+  request.pictures.resize(head.picture_count);
+  for (SporeImportPicture &picture : request.pictures) {
+    std::memcpy(&picture, rest, sizeof picture);
+    rest += sizeof picture;
+  }
+  request.content = rest;
+  request.size = head.size;
+  const char *at = request.content + head.size;
+  for (const SporeImportPicture &picture : request.pictures) {
+    request.bytes.push_back(at);
+    at += picture.size;
+  }
+  return request;
+}
+
+Mesh import(const char *extension, const Request &request) {
+  const void *content = request.content;
+  size_t size = request.size;
   std::string zeros;
   if (std::strcmp(extension, "obj") == 0) {
-    zeros = with_leading_zeros(static_cast<const char *>(content), size);
+    zeros = with_leading_zeros(request.content, size);
     content = zeros.data(), size = zeros.size();
   }
   const std::string name = std::string("mesh.") + extension;
@@ -307,8 +397,8 @@ Mesh import(const char *extension, const void *content, size_t size) {
   if (!scene)
     throw Refusal{SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"), said};
   Mesh mesh;
-  mesh.placed = scene->HasTextures();
-  if (scene->mRootNode) append(*scene, *scene->mRootNode, aiMatrix4x4(), "", mesh);
+  mesh.placed = scene->HasTextures() || !request.pictures.empty();
+  if (scene->mRootNode) append(*scene, *scene->mRootNode, request, aiMatrix4x4(), "", mesh);
   if (mesh.triangles.empty())
     throw Refusal{SPORE_ERROR_INPUT,
                   mesh.vertices.empty()
@@ -326,7 +416,7 @@ void *make_answer(const Mesh &mesh, size_t *size) {
   const size_t vertex_bytes = mesh.vertices.size() * sizeof(double);
   const size_t triangle_bytes = mesh.triangles.size() * sizeof(uint32_t);
   size_t place_bytes = mesh.pictures.empty() ? 0 : mesh.places.size() * sizeof(float), picture_bytes = 0;
-  for (const Picture &picture : mesh.pictures) picture_bytes += sizeof(uint64_t) + picture.bytes.size();
+  for (const Picture &picture : mesh.pictures) picture_bytes += sizeof(SporeImportTaken) + picture.bytes.size();
   *size = sizeof head + part_bytes + vertex_bytes + triangle_bytes + place_bytes + picture_bytes;
   char *answer = static_cast<char *>(std::malloc(*size));
   if (!answer) throw std::bad_alloc();
@@ -339,9 +429,9 @@ void *make_answer(const Mesh &mesh, size_t *size) {
   std::memcpy(at, mesh.places.data(), place_bytes);
   at += place_bytes;
   for (const Picture &picture : mesh.pictures) {
-    const uint64_t bytes = picture.bytes.size();
-    std::memcpy(at, &bytes, sizeof bytes);
-    at += sizeof bytes;
+    const SporeImportTaken taken = {picture.bytes.size(), picture.of.beside};
+    std::memcpy(at, &taken, sizeof taken);
+    at += sizeof taken;
   }
   for (const Picture &picture : mesh.pictures) {
     std::memcpy(at, picture.bytes.data(), picture.bytes.size());
@@ -359,10 +449,10 @@ bool fail(SporeHelperFailure *failure, SporeErrorCode code, const char *message,
 
 } // namespace
 
-bool spore_import_assimp(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
-                         SporeHelperFailure *failure) {
+bool spore_import_assimp(const char *extension, const SporeImportRequest *head, const char *rest, void **answer,
+                         size_t *answer_size, SporeHelperFailure *failure) {
   try {
-    *answer = make_answer(import(extension, content, size), answer_size);
+    *answer = make_answer(import(extension, take_apart(*head, rest)), answer_size);
     return true;
   } catch (const Refusal &refusal) {
     return fail(failure, refusal.code, refusal.message, refusal.detail.c_str());

@@ -27,6 +27,7 @@ typedef struct Intake {
 
 static void free_file(SporeImportFile *file) {
   g_free(file->file);
+  g_free(file->undescribed);
   g_clear_pointer(&file->content, g_bytes_unref);
   g_free(file);
 }
@@ -198,14 +199,16 @@ static int guess_unit(const GPtrArray *parts) {
 static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
   SporeProgress progress = spore_progress_of_share(&intake->step);
   gboolean named = intake->options->division == SPORE_IMPORT_PARTS;
+  g_autoptr(SporeMeshBeside) beside = spore_mesh_beside_read(file->file, file->content);
+  file->undescribed = g_strdup(beside->reason);
   file->unit = MAX(intake->options->unit, 0);
-  g_autoptr(GPtrArray) parts =
-      spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress, error);
+  g_autoptr(GPtrArray) parts = spore_mesh_decode_parts(file->file, bytes, size, beside, file->unit, file->frame, named,
+                                                       &file->parts, &progress, error);
   if (!parts || intake->options->unit >= 0 || says_metres(file->file, bytes, size)) return g_steal_pointer(&parts);
   file->unit = guess_unit(parts);
   if (file->unit == 0) return g_steal_pointer(&parts);
-  return spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress,
-                                 error);
+  return spore_mesh_decode_parts(file->file, bytes, size, beside, file->unit, file->frame, named, &file->parts,
+                                 &progress, error);
 }
 
 /* A body of each part, or of each piece, as the options divide the mesh. */
@@ -393,6 +396,6 @@ char *spore_import_remark(const SporeImportFile *file) {
                            spore_mesh_frames[file->frame_said], spore_mesh_frames[file->frame]);
   if (file->overruled)
     return g_strdup(_("the volume's header says its unit and axes, and they were taken; leave them to the file"));
-  if (!file->joined) return NULL;
+  if (!file->joined) return g_strdup(file->undescribed);
   return g_strdup_printf(_("its %u parts were joined into one body; split it to have a body of each"), file->parts);
 }

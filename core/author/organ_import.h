@@ -30,12 +30,13 @@ typedef struct SporeImportOptions {
 typedef struct SporeImportFile {
   char *file;
   GBytes *content;
-  int unit, frame; /* taken */
-  int frame_said;  /* by the file itself, or -1 */
-  guint parts;     /* that the file names */
-  bool joined;     /* the parts were joined without a request for it */
-  bool label_map;  /* each label became a body */
-  bool overruled;  /* a label map: the given unit or axes were ignored, because its header says them */
+  int unit, frame;   /* taken */
+  int frame_said;    /* by the file itself, or -1 */
+  guint parts;       /* that the file names */
+  bool joined;       /* the parts were joined without a request for it */
+  bool label_map;    /* each label became a body */
+  char *undescribed; /* why its materials, which lie beside it, are not read: "what; remedy", translated; or NULL */
+  bool overruled;    /* a label map: the given unit or axes were ignored, because its header says them */
 } SporeImportFile;
 
 /* A picture and the mesh that wore it in the file, shared by the bodies that were made of the mesh. */

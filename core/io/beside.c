@@ -1,4 +1,4 @@
-/* Reads a file in the same folder, and nothing outside that folder. */
+/* Reads a file in the same folder or below, and nothing outside that folder. */
 #include "core/io/beside.h"
 
 #include <errno.h>
@@ -32,18 +32,40 @@ static GBytes *join(const void *head, gsize size, int file, gsize most, int *rea
   return NULL;
 }
 
+/* Whether the name is a path that leads down, step by step. */
+static gboolean leads_down(const char *name) {
+  g_auto(GStrv) steps = g_strsplit(name, "/", -1);
+  for (char **step = steps; *step; step++)
+    if (!**step || g_str_equal(*step, ".") || g_str_equal(*step, "..")) return FALSE;
+  return *steps && !strchr(name, '\\');
+}
+
+/* Opens the file without following a link or waiting for a pipe. -1: errno says why. */
+static int open_below(const char *file, const char *name) {
+  g_autofree char *folder = g_path_get_dirname(file);
+  g_auto(GStrv) steps = g_strsplit(name, "/", -1);
+  int at = open(folder, O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+  for (char **step = steps; *step && at >= 0; step++) {
+    int next =
+        openat(at, *step, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | (step[1] ? O_DIRECTORY : 0));
+    int reason = errno;
+    close(at);
+    at = next;
+    errno = reason;
+  }
+  return at;
+}
+
 GBytes *spore_beside_read(const char *file, const char *name, const void *head, gsize size, gsize most,
                           GError **error) {
-  if (!*name || strpbrk(name, "/\\") || g_str_equal(name, ".") || g_str_equal(name, "..")) {
+  if (!leads_down(name)) {
     spore_error_raise(error, SPORE_ERROR_INPUT, file,
-                      _("a part of it is said to be in \"%s\"; expected the name of one file in the same folder; put "
-                        "it there, or save all in one file"),
+                      _("a part of it is said to be in \"%s\"; expected the path of a file in the same folder or below "
+                        "it; put it there, or save all in one file"),
                       name);
     return NULL;
   }
-  g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL);
-  /* Follows no link out of the folder, and waits for no pipe. */
-  int part = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
+  int part = open_below(file, name);
   int reason = errno;
   GBytes *whole = part >= 0 ? join(head, size, part, most, &reason) : NULL;
   if (part >= 0) close(part);

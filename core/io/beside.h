@@ -6,9 +6,9 @@
 
 #include "core/scene/error.h"
 
-/* The content of the file `name`, which has to lie in the folder of `file`, behind `size` bytes of `head`. The name
- * holds no folder. The file is a regular one, no link, and has at most `most` bytes. g_bytes_unref; NULL with an error
- * whose place is `file`. */
+/* The content of the file `name`, which has to lie in the folder of `file` or in a folder below, behind `size` bytes of
+ * `head`. The name leads nowhere else, and no link is followed. The file is a regular one and has at most `most` bytes.
+ * g_bytes_unref; NULL with an error whose place is `file`. */
 GBytes *spore_beside_read(const char *file, const char *name, const void *head, gsize size, gsize most, GError **error);
 
 #endif

@@ -1,9 +1,11 @@
-/* Puts the buffers of a glTF text, which most programs write to files of their own, into the text itself. */
+/* Parts of a glTF that most programs write to files of their own. Buffers are put into the text itself; pictures are
+ * kept apart. */
 #include <glib/gi18n.h>
 #include <string.h>
 
 #include "core/io/beside.h"
 #include "core/io/json_scan.h"
+#include "core/io/mesh_beside.h"
 #include "core/io/mesh_import.h"
 
 #define MOST_BYTES ((gsize)1 << 30) /* of all buffers together */
@@ -65,32 +67,53 @@ static guint64 read_length(SporeJson *json) {
   return value;
 }
 
-static gboolean read_buffer(Embedding *embedding) {
-  SporeJson *json = &embedding->json;
-  SporeJsonText key, uri = {NULL, 0};
+/* Reads an object with a URI. FALSE: it names no other file. */
+static gboolean read_uri(SporeJson *json, SporeJsonText *uri, guint64 *length) {
+  SporeJsonText key;
   gsize count = 0;
-  guint64 length = 0;
+  *uri = (SporeJsonText){NULL, 0}, *length = 0;
   if (!spore_json_take(json, '{')) spore_json_fail(json);
   while (spore_json_next_member(json, &count, &key))
-    if (is(key, "uri") && !uri.text) spore_json_string(json, &uri);
-    else if (is(key, "byteLength")) length = read_length(json);
+    if (is(key, "uri") && !uri->text) spore_json_string(json, uri);
+    else if (is(key, "byteLength")) *length = read_length(json);
     else spore_json_skip(json, 2);
-  if (json->bad || !uri.text || (uri.length >= 5 && memcmp(uri.text, "data:", 5) == 0)) return TRUE;
-  return embed(embedding, uri, length);
+  return !json->bad && uri->text && !(uri->length >= 5 && memcmp(uri->text, "data:", 5) == 0);
+}
+
+/* Goes to the first item of the text's list of that name. FALSE: there is no such list any more. */
+static gboolean find_list(SporeJson *json, gsize *members, const char *name) {
+  SporeJsonText key;
+  while (spore_json_next_member(json, members, &key)) {
+    if (is(key, name) && spore_json_take(json, '[')) return TRUE;
+    spore_json_skip(json, 0);
+  }
+  return FALSE;
 }
 
 static gboolean read_text(Embedding *embedding) {
   SporeJson *json = &embedding->json;
-  SporeJsonText key;
-  gsize count = 0, buffers = 0;
+  SporeJsonText uri;
+  gsize members = 0;
+  guint64 length;
   if (!spore_json_take(json, '{')) return TRUE;
-  while (spore_json_next_member(json, &count, &key)) {
-    if (!is(key, "buffers") || !spore_json_take(json, '[')) spore_json_skip(json, 0);
-    else
-      while (spore_json_next_item(json, ']', &buffers))
-        if (!read_buffer(embedding)) return FALSE;
-  }
+  while (find_list(json, &members, "buffers"))
+    for (gsize buffers = 0; spore_json_next_item(json, ']', &buffers);)
+      if (read_uri(json, &uri, &length) && !embed(embedding, uri, length)) return FALSE;
   return TRUE;
+}
+
+void spore_mesh_beside_images(SporeMeshBeside *beside, const char *file, const char *text, gsize size) {
+  SporeJson json = {text, text + size, FALSE};
+  SporeJsonText uri;
+  gsize members = 0;
+  guint64 unused;
+  if (!spore_json_take(&json, '{')) return;
+  while (find_list(&json, &members, "images"))
+    for (gsize images = 0; spore_json_next_item(&json, ']', &images);)
+      if (read_uri(&json, &uri, &unused)) {
+        g_autofree char *name = g_strndup(uri.text, uri.length), *path = file_of(uri);
+        spore_mesh_beside_picture(beside, file, name, path ? path : name);
+      }
 }
 
 GBytes *spore_mesh_whole(const char *file, GBytes *content, GError **error) {

@@ -7,29 +7,61 @@
 /* Corners of a face at most. Cutting a face into triangles takes work by the square of its corners. */
 #define SPORE_FACE_CORNERS_MAXIMUM 10000
 
-/* The file's bytes follow. */
+/* material_count SporeImportMaterial, picture_count SporeImportPicture, the file's bytes, and the bytes of each picture
+ * follow. */
 typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */
+  uint64_t size;   /* of the file */
+  uint64_t material_count, picture_count;
 } SporeImportRequest;
+
+/* A material of OBJ, which is described in a file beside the mesh. */
+typedef struct SporeImportMaterial {
+  float colour[3];   /* sRGB from 0 to 1; used where coloured */
+  uint32_t coloured; /* the file says the colour */
+  uint32_t picture;  /* number of the picture from 1; 0: it wears none */
+  char name[128];    /* cut to fit */
+} SporeImportMaterial;
+
+/* A picture in a file beside the mesh. */
+typedef struct SporeImportPicture {
+  uint64_t size;  /* 0: it cannot be read */
+  char name[256]; /* as a glTF says it, cut to fit */
+} SporeImportPicture;
+
+/* What a part wears. */
+enum {
+  SPORE_IMPORT_BARE,
+  SPORE_IMPORT_WORN,     /* one picture */
+  SPORE_IMPORT_MIXED,    /* different pictures, or a picture on a part of it */
+  SPORE_IMPORT_UNPLACED, /* a picture that its corners have no places in */
+  SPORE_IMPORT_UNKNOWN   /* a picture that is not there, or too large */
+};
 
 /* A sub-mesh: its number of triangles. The triangles of the parts follow each other. */
 typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
   float colour[3];         /* the base colour of its material, sRGB from 0 to 1; used where coloured */
   uint32_t coloured;       /* the file says the colour */
-  uint32_t textured;       /* its material has a picture; the colour is what the picture is multiplied by */
-  uint32_t picture;        /* number of the picture from 1, the same for all its triangles; 0: none that can be used */
+  uint32_t dress;          /* SPORE_IMPORT_BARE ...; the colour is what the picture is multiplied by */
+  uint32_t picture;        /* number of the picture from 1 where it is worn, else 0 */
   char name[64];           /* name of its node or mesh, cut to fit; empty: it has none */
   char group[192];         /* names of the nodes that it lies in, outermost first, between slashes; may be empty */
 } SporeImportPart;
+
+/* A picture of the answer. */
+typedef struct SporeImportTaken {
+  uint64_t size;   /* of its bytes */
+  uint64_t beside; /* number from 1 of the picture of the request; 0: it is in the file itself */
+} SporeImportTaken;
 
 /* Pictures of an answer at most, and bytes of each. */
 #define SPORE_IMPORT_PICTURES_MAXIMUM 500
 #define SPORE_IMPORT_PICTURE_BYTES (UINT64_C(64) << 20)
 
 /* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. Where there are
- * pictures: of each corner of each triangle its place in the picture, 2 floats from the upper left corner; then the
- * size of each picture in bytes, uint64_t; then the pictures. */
+ * pictures: of each corner of each triangle its place in the picture, 2 floats from the upper left corner; then a
+ * SporeImportTaken for each picture; then the pictures. */
 typedef struct SporeImportAnswer {
   uint64_t part_count, vertex_count, triangle_count;
   uint64_t passed_over; /* points and lines */

@@ -25,9 +25,12 @@ const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 #define MEMORY_PER_BYTE 40
 #define MEMORY_MOST (G_GUINT64_CONSTANT(6) << 30)
 
-static SporeHelperLimits import_limits(gsize size) {
+/* A picture takes its size in the request, in the helper's hands and in the answer. */
+static SporeHelperLimits import_limits(gsize size, gsize pictures) {
   return (SporeHelperLimits){
-      .time_s = 60, .memory = MIN(MEMORY_BASE + MEMORY_PER_BYTE * (guint64)size, MEMORY_MOST), .output = 1 << 30};
+      .time_s = 60,
+      .memory = MIN(MEMORY_BASE + MEMORY_PER_BYTE * (guint64)size + 3 * (guint64)pictures, MEMORY_MOST),
+      .output = 1 << 30};
 }
 
 static SporeVec3 to_spore_axes(SporeVec3 p, int frame) {
@@ -48,20 +51,38 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
   }
 }
 
+/* A file to decode. */
+typedef struct Given {
+  const char *place, *file;
+  const SporeMeshBeside *beside; /* NULL: nothing */
+  int unit, frame;
+} Given;
+
+/* A picture of the file. */
+typedef struct RawPicture {
+  GBytes *content;
+  char *reason; /* why it cannot be taken: "what; remedy", translated; NULL: it can */
+} RawPicture;
+
+static void clear_picture(RawPicture *picture) {
+  g_clear_pointer(&picture->content, g_bytes_unref);
+  g_clear_pointer(&picture->reason, g_free);
+}
+
 /* The mesh as in the file: its triangles, and the part that each belongs to. */
 typedef struct Raw {
   SporeTriangleMesh mesh;
-  guint32 *part;       /* triangle_count; NULL: one part without a name */
-  GArray *parts;       /* of SporeImportPart; NULL as well */
-  GPtrArray *pictures; /* of GBytes; NULL: the file brings none */
-  float *places;       /* then of the corners of its triangles, x 3 x 2 */
+  guint32 *part;    /* triangle_count; NULL: one part without a name */
+  GArray *parts;    /* of SporeImportPart; NULL as well */
+  GArray *pictures; /* of RawPicture; NULL: the file brings none */
+  float *places;    /* then of the corners of its triangles, x 3 x 2 */
 } Raw;
 
 static void clear_raw(Raw *raw) {
   spore_triangle_mesh_clear(&raw->mesh);
   g_clear_pointer(&raw->part, spore_free);
   g_clear_pointer(&raw->parts, g_array_unref);
-  g_clear_pointer(&raw->pictures, g_ptr_array_unref);
+  g_clear_pointer(&raw->pictures, g_array_unref);
   g_clear_pointer(&raw->places, g_free);
 }
 
@@ -92,29 +113,42 @@ static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw
   return triangle == head->triangle_count;
 }
 
+/* Takes a picture. Its reason stands for one that could not be read. FALSE: the answer is wrong. */
+static gboolean take_picture(const char *bytes, gsize size, const SporeImportTaken *taken,
+                             const SporeMeshBeside *beside, Raw *raw) {
+  if (taken->size > size || (taken->beside && (!beside || taken->beside > beside->pictures->len))) return FALSE;
+  const SporeMeshPicture *source = taken->beside ? beside->pictures->pdata[taken->beside - 1] : NULL;
+  RawPicture picture = {g_bytes_new(bytes, taken->size), g_strdup(source ? source->reason : NULL)};
+  g_array_append_val(raw->pictures, picture);
+  return TRUE;
+}
+
 /* Places and pictures, which fill the rest of the answer. A place that is no number is the picture's corner. */
-static gboolean read_pictures(const char *bytes, gsize size, const SporeImportAnswer *head, Raw *raw) {
+static gboolean read_pictures(const char *bytes, gsize size, const SporeImportAnswer *head,
+                              const SporeMeshBeside *beside, Raw *raw) {
   if (head->picture_count == 0) return size == 0;
   gsize corners = 6 * head->triangle_count, before = corners * sizeof(float);
-  if (head->picture_count > SPORE_IMPORT_PICTURES_MAXIMUM || size < before + head->picture_count * sizeof(guint64))
+  if (head->picture_count > SPORE_IMPORT_PICTURES_MAXIMUM ||
+      size < before + head->picture_count * sizeof(SporeImportTaken))
     return FALSE;
   raw->places = g_memdup2(bytes, before);
   for (gsize i = 0; raw->places && i < corners; i++)
     if (!(fabsf(raw->places[i]) <= 1e6f)) raw->places[i] = 0;
-  gsize at = before + head->picture_count * sizeof(guint64);
-  raw->pictures = g_ptr_array_new_with_free_func((GDestroyNotify)g_bytes_unref);
+  gsize at = before + head->picture_count * sizeof(SporeImportTaken);
+  raw->pictures = g_array_new(FALSE, FALSE, sizeof(RawPicture));
+  g_array_set_clear_func(raw->pictures, (GDestroyNotify)clear_picture);
   for (guint64 p = 0; p < head->picture_count; p++) {
-    guint64 length;
-    memcpy(&length, bytes + before + p * sizeof length, sizeof length);
-    if (length > size - at) return FALSE;
-    g_ptr_array_add(raw->pictures, g_bytes_new(bytes + at, length));
-    at += length;
+    SporeImportTaken taken;
+    memcpy(&taken, bytes + before + p * sizeof taken, sizeof taken);
+    if (!take_picture(bytes + at, size - at, &taken, beside, raw)) return FALSE;
+    at += taken.size;
   }
   return at == size;
 }
 
 /* The helper is not trusted: its counts must agree to the byte with what it sent. */
-static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError **error) {
+static gboolean read_answer(const Given *given, GBytes *answer, Raw *raw, GError **error) {
+  const char *place = given->place;
   gsize size;
   const char *bytes = g_bytes_get_data(answer, &size);
   SporeImportAnswer head = {0};
@@ -130,7 +164,7 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
   if (!raw->part) return fail_memory(place, error);
   gsize mesh_bytes = sizeof head + part_bytes + vertex_bytes + triangle_bytes;
   if (head.part_count > head.triangle_count || size < mesh_bytes || !read_parts(bytes + sizeof head, &head, raw) ||
-      !read_pictures(bytes + mesh_bytes, size - mesh_bytes, &head, raw))
+      !read_pictures(bytes + mesh_bytes, size - mesh_bytes, &head, given->beside, raw))
     return fail_answer(place, error);
   SporeError failure = SPORE_ERROR_INIT;
   if (!spore_triangle_mesh_allocate(&raw->mesh, head.vertex_count, head.triangle_count, &failure)) {
@@ -145,27 +179,69 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
   return TRUE;
 }
 
-static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size, Raw *raw,
+static void append_material(GByteArray *request, const SporeMeshMaterial *from) {
+  SporeImportMaterial material = {.coloured = from->coloured, .picture = from->picture};
+  for (int k = 0; k < 3; k++) material.colour[k] = (float)from->colour[k];
+  g_strlcpy(material.name, from->name, sizeof material.name);
+  g_byte_array_append(request, (const guint8 *)&material, sizeof material);
+}
+
+static void append_picture(GByteArray *request, const SporeMeshPicture *from) {
+  SporeImportPicture picture = {.size = from->content ? g_bytes_get_size(from->content) : 0};
+  g_strlcpy(picture.name, from->name, sizeof picture.name);
+  g_byte_array_append(request, (const guint8 *)&picture, sizeof picture);
+}
+
+/* What stands before the bytes of the file. *pictures: bytes of all pictures. */
+static GByteArray *begin_request(SporeMeshFormat format, gsize size, const SporeMeshBeside *beside, gsize *pictures) {
+  GByteArray *request = g_byte_array_new();
+  SporeImportRequest head = {format, size, beside ? beside->materials->len : 0, beside ? beside->pictures->len : 0};
+  *pictures = 0;
+  g_byte_array_append(request, (const guint8 *)&head, sizeof head);
+  for (guint64 i = 0; i < head.material_count; i++) append_material(request, beside->materials->pdata[i]);
+  for (guint64 i = 0; i < head.picture_count; i++) {
+    const SporeMeshPicture *picture = beside->pictures->pdata[i];
+    append_picture(request, picture);
+    *pictures += picture->content ? g_bytes_get_size(picture->content) : 0;
+  }
+  return request;
+}
+
+/* NULL: there is not enough memory. */
+static GBytes *make_request(SporeMeshFormat format, const void *content, gsize size, const SporeMeshBeside *beside,
+                            gsize *pictures) {
+  g_autoptr(GByteArray) begin = begin_request(format, size, beside, pictures);
+  gsize whole = begin->len + size + *pictures;
+  char *request = spore_allocate(whole, 1), *at = request;
+  if (!request) return NULL;
+  memcpy(at, begin->data, begin->len);
+  memcpy(at + begin->len, content, size);
+  at += begin->len + size;
+  for (guint i = 0; beside && i < beside->pictures->len; i++) {
+    GBytes *picture = ((const SporeMeshPicture *)beside->pictures->pdata[i])->content;
+    gsize length = 0;
+    gconstpointer bytes = picture ? g_bytes_get_data(picture, &length) : NULL;
+    if (length) memcpy(at, bytes, length);
+    at += length;
+  }
+  return g_bytes_new_with_free_func(request, whole, spore_free, request);
+}
+
+static gboolean decode_in_helper(const Given *given, SporeMeshFormat format, const void *content, gsize size, Raw *raw,
                                  const SporeProgress *progress, GError **error) {
   if (!SPORE_HAVE_ASSIMP && format != SPORE_MESH_VTK && format != SPORE_MESH_VTP)
     return spore_error_raise(
-        error, SPORE_ERROR_UNSUPPORTED, place,
+        error, SPORE_ERROR_UNSUPPORTED, given->place,
         _("this is %s, and this build of SPORE reads OFF and VTK alone; expected one of these; convert the mesh, or "
           "install libassimp-dev and build SPORE again"),
         spore_mesh_format_names[format]);
-  SporeImportRequest head = {format};
-  char *request = spore_allocate(sizeof head + size, 1);
-  if (!request) return fail_memory(place, error);
-  memcpy(request, &head, sizeof head);
-  memcpy(request + sizeof head, content, size);
-  GBytes *bytes = g_bytes_new_with_free_func(request, sizeof head + size, spore_free, request);
-  const SporeHelperLimits limits = import_limits(size);
-  GBytes *answer = spore_helper_run("spore-import", place, bytes, &limits, progress, error);
-  g_bytes_unref(bytes);
-  if (!answer) return FALSE;
-  gboolean done = read_answer(place, answer, raw, error);
-  g_bytes_unref(answer);
-  return done;
+  gsize pictures;
+  GBytes *request = make_request(format, content, size, given->beside, &pictures);
+  if (!request) return fail_memory(given->place, error);
+  const SporeHelperLimits limits = import_limits(size, pictures);
+  g_autoptr(GBytes) answer = spore_helper_run("spore-import", given->place, request, &limits, progress, error);
+  g_bytes_unref(request);
+  return answer && read_answer(given, answer, raw, error);
 }
 
 /* Turns triangles that look inward. Only a surface without border, in which two triangles share each edge, has an
@@ -201,25 +277,25 @@ gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **er
 }
 
 /* Decodes a mesh whose text is in its plain form. */
-static gboolean decode_plain(const char *place, const char *file, const void *content, gsize size, Raw *raw,
+static gboolean decode_plain(const Given *given, const void *content, gsize size, Raw *raw,
                              const SporeProgress *progress, GError **error) {
   SporeMeshFormat format;
-  if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
+  if (!spore_mesh_format_find(given->place, given->file, content, size, &format, error)) return FALSE;
   size = spore_mesh_format_extent(format, content, size);
-  return format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, &raw->mesh, error)
-                                  : decode_in_helper(place, format, content, size, raw, progress, error);
+  return format == SPORE_MESH_OFF ? spore_off_parse(given->place, content, size, &raw->mesh, error)
+                                  : decode_in_helper(given, format, content, size, raw, progress, error);
 }
 
 /* Decodes a mesh, in metres and in SPORE's axes. */
-static gboolean decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
-                       Raw *raw, const SporeProgress *progress, GError **error) {
-  g_assert(unit >= 0 && spore_length_units[unit] && frame >= 0 && frame < 3);
+static gboolean decode(const Given *given, const void *content, gsize size, Raw *raw, const SporeProgress *progress,
+                       GError **error) {
+  g_assert(given->unit >= 0 && spore_length_units[given->unit] && given->frame >= 0 && given->frame < 3);
   const char *text = content;
   char *held = NULL;
-  if (!spore_mesh_text(&text, &size, &held)) return fail_memory(place, error);
-  gboolean done = decode_plain(place, file, text, size, raw, progress, error);
+  if (!spore_mesh_text(&text, &size, &held)) return fail_memory(given->place, error);
+  gboolean done = decode_plain(given, text, size, raw, progress, error);
   spore_free(held);
-  if (done) apply_unit_and_frame(&raw->mesh, unit, frame);
+  if (done) apply_unit_and_frame(&raw->mesh, given->unit, given->frame);
   return done;
 }
 
@@ -235,8 +311,8 @@ gboolean spore_mesh_decode_tagged(const char *place, const char *file, const voi
                                   int frame, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
                                   const SporeProgress *progress, GError **error) {
   Raw raw = {0};
-  gboolean done =
-      decode(place, file, content, size, unit, frame, &raw, progress, error) && tidy(place, &raw.mesh, raw.part, error);
+  const Given given = {place, file, NULL, unit, frame};
+  gboolean done = decode(&given, content, size, &raw, progress, error) && tidy(place, &raw.mesh, raw.part, error);
   *mesh = done ? raw.mesh : (SporeTriangleMesh){0};
   if (names) *names = done && raw.parts ? names_of(&raw) : NULL;
   if (parts) *parts = done ? g_steal_pointer(&raw.part) : NULL;
@@ -282,25 +358,47 @@ static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
   }
 }
 
+/* Why what the parts wear is not taken, from what they wear; NULL: it is, or they wear nothing. */
+static const char *why_undressed(guint32 dress) {
+  switch (dress) {
+  case SPORE_IMPORT_MIXED:
+    return _("its materials wear different pictures, or one on a part of it; expected one picture; give each picture a "
+             "mesh of its own");
+  case SPORE_IMPORT_UNPLACED:
+    return _("it names a picture, and its corners have no places in the picture (UV); expected them; unwrap the mesh, "
+             "and export it again");
+  case SPORE_IMPORT_UNKNOWN:
+    return _("its picture is not in the file, or is too large; expected one of at most 64 MiB; export it as GLB with "
+             "its picture");
+  default:
+    return NULL;
+  }
+}
+
+/* Why the picture cannot be drawn; NULL: it can. g_free. */
+static char *why_undrawn(const RawPicture *picture) {
+  int width, height;
+  g_autoptr(GError) error = NULL;
+  if (picture->reason) return g_strdup(picture->reason);
+  if (spore_texture_size("", picture->content, &width, &height, &error)) return NULL;
+  return g_strdup(g_str_has_prefix(error->message, ": ") ? error->message + 2 : error->message);
+}
+
 /* Why the picture of the parts is not taken; NULL: it is, or there is none. *number: of the picture, from 1. g_free. */
 static char *why_untextured(const Raw *raw, const SporeImportPart *said, gboolean apart, guint32 *number) {
-  gboolean textured = FALSE, alike = TRUE;
+  guint32 dress = SPORE_IMPORT_BARE;
+  gboolean alike = TRUE;
   *number = said ? said->picture : 0;
   for (guint p = 0; raw->parts && p < raw->parts->len; p++) {
     const SporeImportPart *one = &g_array_index(raw->parts, SporeImportPart, p);
     if (apart && one != said) continue;
-    textured = textured || one->textured;
+    if (dress == SPORE_IMPORT_BARE) dress = one->dress;
     alike = alike && one->picture == *number;
   }
-  if (!textured) return NULL;
+  if (dress == SPORE_IMPORT_BARE) return NULL;
   if (!alike) return g_strdup(_("its parts wear different pictures; split it to have a body of each"));
-  if (*number == 0)
-    return g_strdup(_("its materials wear different pictures, or one that is not in the file; export it as GLB with "
-                      "one picture for each mesh"));
-  int width, height;
-  g_autoptr(GError) error = NULL;
-  if (spore_texture_size("", raw->pictures->pdata[*number - 1], &width, &height, &error)) return NULL;
-  return g_strdup(g_str_has_prefix(error->message, ": ") ? error->message + 2 : error->message);
+  if (*number == 0) return g_strdup(why_undressed(dress));
+  return why_undrawn(&g_array_index(raw->pictures, RawPicture, *number - 1));
 }
 
 /* The places of the triangles of a part; g_free. */
@@ -316,7 +414,7 @@ static float *places_of_part(const Raw *raw, const guint32 *pieces, guint32 numb
 static gboolean take_texture(const Raw *raw, guint32 picture, const SporeTriangleMesh *rough, const float *places,
                              SporeMeshPart *part, SporeError *failure) {
   part->places = spore_texture_places_transfer(rough, places, &part->mesh, failure);
-  if (part->places) part->picture = g_bytes_ref(raw->pictures->pdata[picture - 1]);
+  if (part->places) part->picture = g_bytes_ref(g_array_index(raw->pictures, RawPicture, picture - 1).content);
   return part->places != NULL;
 }
 
@@ -352,11 +450,13 @@ static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *piec
   return NULL;
 }
 
-GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, int unit, int frame,
-                                   gboolean apart, guint *count, const SporeProgress *progress, GError **error) {
+GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, const SporeMeshBeside *beside,
+                                   int unit, int frame, gboolean apart, guint *count, const SporeProgress *progress,
+                                   GError **error) {
   Raw raw = {0};
+  const Given given = {file, file, beside, unit, frame};
   g_autoptr(GPtrArray) parts = g_ptr_array_new_with_free_func((GDestroyNotify)spore_mesh_part_free);
-  gboolean done = decode(file, file, content, size, unit, frame, &raw, progress, error);
+  gboolean done = decode(&given, content, size, &raw, progress, error);
   *count = raw.parts ? raw.parts->len : 1;
   gboolean several = apart && *count > 1;
   if (done && *count > SPORE_MESH_PARTS_MAXIMUM && several)

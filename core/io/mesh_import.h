@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "core/base/progress.h"
+#include "core/io/mesh_beside.h"
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 #include "core/scene/length_unit.h"
@@ -49,11 +50,12 @@ typedef struct SporeMeshPart {
 void spore_mesh_part_free(SporeMeshPart *part);
 #define SPORE_MESH_PARTS_MAXIMUM 500u
 
-/* As spore_mesh_decode; `apart` keeps the parts that the file names separate, else they are joined into one. *count:
- * number of parts in the file, 1 where its format has none. GPtrArray of SporeMeshPart *, at least one; NULL with an
- * error. */
-GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, int unit, int frame,
-                                   gboolean apart, guint *count, const SporeProgress *progress, GError **error);
+/* As spore_mesh_decode; `apart` keeps the parts that the file names separate, else they are joined into one. beside:
+ * what lies beside the file (core/io/mesh_beside.h), or NULL. *count: number of parts in the file, 1 where its format
+ * has none. GPtrArray of SporeMeshPart *, at least one; NULL with an error. */
+GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, const SporeMeshBeside *beside,
+                                   int unit, int frame, gboolean apart, guint *count, const SporeProgress *progress,
+                                   GError **error);
 
 /* Validates, welds (1e-6) and turns outward a mesh that was put together after decoding, as each decoded mesh is. */
 gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error);

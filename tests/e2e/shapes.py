@@ -98,6 +98,31 @@ def textured_gltf(vertices, triangles, picture, kind="image/png"):
         "buffers": [{"byteLength": sum(map(len, pieces)), "uri": data(b"".join(pieces))}]})
 
 
+def seamed(vertices, triangles):
+    """Places of the corners of a sphere's triangles in a map of it: three (u, v) of each, v from below; a seam runs down at z = 0."""
+    places = []
+    for triangle in triangles:
+        points = [vertices[i] for i in triangle]
+        turns = [math.atan2(p[2], p[0]) / (2 * math.pi) % 1 if abs(p[0]) + abs(p[2]) > 1e-9 else None for p in points]
+        known = [u for u in turns if u is not None]
+        wrapped = [u + 1 if u < 0.5 and max(known) - min(known) > 0.5 else u for u in known]
+        turns = [wrapped.pop(0) if u is not None else None for u in turns]
+        middle = sum(u for u in turns if u is not None) / len(known)
+        places.append([(middle if u is None else u, 0.5 + math.asin(max(-1, min(1, p[1] / 0.03))) / math.pi) for u, p in zip(turns, points)])
+    return places
+
+
+def worn_obj(vertices, triangles, library, *materials):
+    """OBJ text of a sphere with a map's places, whose triangles have the materials in turn, a hundred at a time."""
+    lines = [f"mtllib {library}", "o worn"] + ["v %.9g %.9g %.9g" % v for v in vertices]
+    lines += ["vt %.9g %.9g" % place for corners in seamed(vertices, triangles) for place in corners]
+    for i, corners in enumerate(triangles):
+        if i % 100 == 0:
+            lines.append(f"usemtl {materials[i // 100 % len(materials)]}")
+        lines.append("f " + " ".join(f"{corner + 1}/{3 * i + k + 1}" for k, corner in enumerate(corners)))
+    return "\n".join(lines) + "\n"
+
+
 def labels(size, label_at):
     """Bytes of a volume of uint8, the first index fastest: label_at(i, j, k)."""
     return bytes(label_at(i, j, k) for k in range(size[2]) for j in range(size[1]) for i in range(size[0]))

@@ -411,6 +411,51 @@ def import_keeps_the_picture_of_a_mesh():
     assert visuals[0].get("texture") in says()
 
 
+def visual_of(scene):
+    return xml.etree.ElementTree.parse(WORK / scene).find(".//visual")
+
+
+@check
+def import_takes_pictures_beside_the_mesh():
+    """An OBJ with its materials and a glTF wear the pictures beside them; seams stay; what lies elsewhere, is missing or no picture is said."""
+    if "assimp" not in FEATURES:
+        raise Skip("built without assimp")
+    vertices, triangles = shapes.sphere()
+    picture = shapes.png(16, 16, lambda x, y: (200, 16 * x, 16 * y))
+    file("obj/pictures/skin a.png", picture)
+    file("obj/worn.obj", shapes.worn_obj(vertices, triangles, ".\\worn.mtl", "skin", "fat"))
+    described = lambda path: f"# made by a test\nnewmtl skin\n\tKd 1 0.5 0.25\n\tmap_Kd -s 1 1 1 -clamp on {path}\nnewmtl fat\nmap_Kd {path}\n"
+    file("obj/worn.mtl", described("pictures\\skin a.png"))
+    assert not report("import", "obj/worn.obj", "-o", "obj/a/a.spore")["diagnostics"]
+    visual = visual_of("obj/a/a.spore")
+    assert (WORK / "obj/a" / visual.get("texture")).read_bytes() == picture and visual.get("colour") == "1 0.5 0.25", visual.attrib
+    places = [float(word) for word in (WORK / "obj/a" / visual.get("texture_places")).read_text().split()[2:]]
+    expected = [(u, 1 - v) for corners in shapes.seamed(vertices, triangles) for u, v in corners]
+    kept = list(zip(places[::2], places[1::2]))
+    assert len(kept) == len(expected)
+    assert all(min(abs(k[0] - e[0]) + abs(k[1] - e[1]) for e in expected) < 1e-4 for k in kept[::29])
+    assert all(max(u for u, v in kept[i:i + 3]) - min(u for u, v in kept[i:i + 3]) < 0.2 for i in range(0, len(kept), 3))
+    (WORK / "link.png").write_bytes(picture)
+    (WORK / "obj/link.png").symlink_to(WORK / "link.png")
+    for path, words in (("none.png", "not there"), ("../link.png", "same folder or below"), (f"{WORK}/link.png", "same folder or below"),
+                        ("link.png", "no regular file"), ("worn.mtl", "no PNG")):
+        file("obj/worn.mtl", described(path))
+        found = report("import", "obj/worn.obj", "-o", "obj/b/b.spore")["diagnostics"]
+        assert any(words in d["message"] + d["remedy"] for d in found) and visual_of("obj/b/b.spore").get("texture") is None, (path, found)
+        (WORK / "obj/b/b.spore").unlink()
+    (WORK / "obj/worn.mtl").unlink()
+    found = report("import", "obj/worn.obj", "-o", "obj/b/b.spore")["diagnostics"]
+    assert any("worn.mtl" in d["message"] for d in found) and visual_of("obj/b/b.spore").get("colour") != "0.6 0.6 0.6", found
+    text = json.loads(shapes.textured_gltf(vertices, triangles, picture))
+    text["images"] = [{"uri": "pictures/skin%20a.png"}]
+    file("obj/worn.gltf", json.dumps(text))
+    assert not report("import", "obj/worn.gltf", "-o", "obj/c/c.spore")["diagnostics"]
+    assert (WORK / "obj/c" / visual_of("obj/c/c.spore").get("texture")).read_bytes() == picture
+    (WORK / "obj/pictures/skin a.png").unlink()
+    found = report("import", "obj/worn.gltf", "-o", "obj/d/d.spore")["diagnostics"]
+    assert any("skin a.png" in d["message"] for d in found) and visual_of("obj/d/d.spore").get("texture") is None, found
+
+
 @check
 def import_keeps_photographs_as_png():
     """A JPEG on a mesh becomes a PNG of its colours; one that is cut off is left away in words."""
@@ -419,7 +464,7 @@ def import_keeps_photographs_as_png():
     for name, content in (("whole", shapes.PHOTOGRAPH), ("short", shapes.PHOTOGRAPH[:-20])):
         file(f"{name}.gltf", shapes.textured_gltf(*shapes.sphere(), content, "image/jpeg"))
         found = report("import", f"{name}.gltf", "-o", f"photo/{name}.spore")["diagnostics"]
-        kept = xml.etree.ElementTree.parse(WORK / f"photo/{name}.spore").find(".//visual").get("texture")
+        kept = visual_of(f"photo/{name}.spore").get("texture")
         assert (kept is not None) == (name == "whole" and "jpeg" in FEATURES), (name, kept)
         assert (kept is None) == any("no PNG" in d["message"] for d in found), (name, found)
         if kept:

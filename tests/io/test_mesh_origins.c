@@ -97,19 +97,40 @@ static void test_outside(Folder *folder, gconstpointer data) {
                   *pipe = g_build_filename(folder->path, "pipe.bin", NULL);
   g_assert_cmpint(symlink(folder->buffer, link), ==, 0);
   g_assert_cmpint(mkfifo(pipe, 0600), ==, 0);
-  check_refused(folder, "/etc/passwd", "the name of one file in the same folder");
-  check_refused(folder, "../ball.bin", "the name of one file in the same folder");
-  check_refused(folder, "..%2Fball.bin", "the name of one file in the same folder");
-  check_refused(folder, "..", "the name of one file in the same folder");
+  check_refused(folder, "/etc/passwd", "a file in the same folder or below");
+  check_refused(folder, "../ball.bin", "a file in the same folder or below");
+  check_refused(folder, "..%2Fball.bin", "a file in the same folder or below");
+  check_refused(folder, "..", "a file in the same folder or below");
   check_refused(folder, "file:ball.bin", "is not there");
-  check_refused(folder, "https://example.org/ball.bin", "the name of one file in the same folder");
-  check_refused(folder, "ball\\u002ebin", "the name of one file in the same folder");
-  check_refused(folder, "", "the name of one file in the same folder");
+  check_refused(folder, "https://example.org/ball.bin", "a file in the same folder or below");
+  check_refused(folder, "ball\\u002ebin", "a file in the same folder or below");
+  check_refused(folder, "", "a file in the same folder or below");
   check_refused(folder, "none.bin", "is not there");
   check_refused(folder, "link.bin", "is no regular file");
   check_refused(folder, "pipe.bin", "is no regular file");
   g_unlink(link);
   g_unlink(pipe);
+}
+
+/* A folder below is entered, and no link that stands for a folder. */
+static void test_below(Folder *folder, gconstpointer data) {
+  g_autofree char *below = g_build_filename(folder->path, "below", NULL),
+                  *link = g_build_filename(folder->path, "link", NULL),
+                  *moved = g_build_filename(below, "ball.bin", NULL);
+  g_autoptr(GError) error = NULL;
+  g_assert_cmpint(g_mkdir(below, 0700), ==, 0);
+  g_assert_cmpint(symlink(below, link), ==, 0);
+  g_assert_cmpint(g_rename(folder->buffer, moved), ==, 0);
+  g_autoptr(GBytes) content = whole(folder, "below/ball.bin", &error);
+  g_assert_no_error(error);
+  check_refused(folder, "link/ball.bin", "link/ball.bin");
+  check_refused(folder, "below//ball.bin", "a file in the same folder or below");
+  check_refused(folder, "below/./ball.bin", "a file in the same folder or below");
+  check_refused(folder, "below", "is no regular file");
+  check_refused(folder, "below/ball.bin/a", "below/ball.bin/a");
+  g_unlink(moved);
+  g_unlink(link);
+  g_rmdir(below);
 }
 
 /* A buffer that was cut short is refused, and padding behind the buffer is passed over. */
@@ -207,7 +228,7 @@ static void test_tree(void) {
   GError *error = NULL;
   g_autofree char *text = tree_text();
   guint count;
-  GPtrArray *parts = spore_mesh_decode_parts("tree.gltf", text, strlen(text), 0, 0, TRUE, &count, NULL, &error);
+  GPtrArray *parts = spore_mesh_decode_parts("tree.gltf", text, strlen(text), NULL, 0, 0, TRUE, &count, NULL, &error);
   g_assert_no_error(error);
   g_assert_cmpuint(parts->len, ==, 2);
   const SporeMeshPart *cortex = g_ptr_array_index(parts, 0), *vein = g_ptr_array_index(parts, 1);
@@ -319,6 +340,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add("/mesh-origins/beside", Folder, NULL, set_up, test_beside, tear_down);
   g_test_add("/mesh-origins/outside", Folder, NULL, set_up, test_outside, tear_down);
+  g_test_add("/mesh-origins/below", Folder, NULL, set_up, test_below, tear_down);
   g_test_add("/mesh-origins/length", Folder, NULL, set_up, test_length, tear_down);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/encodings", test_encodings);
   if (SPORE_HAVE_ASSIMP) g_test_add_func("/mesh-origins/blank-lines", test_blank_lines);
