@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/io/surface_split.h"
 #include "core/math/colour.h"
 #include "core/scene/error.h"
 
@@ -26,7 +27,8 @@
 /* A file under way: the lists of its description, each element behind a comma, and the numbers. */
 typedef struct Writer {
   GString *views, *accessors, *meshes, *materials, *nodes, *samplers, *channels;
-  guint view_count, sampler_count;
+  guint view_count, sampler_count; /* an accessor has the number of its view */
+  GPtrArray *pictures;             /* of GBytes, borrowed; their views stand behind those of the accessors */
   GByteArray *numbers;
   const SporeCancel *cancel;
   gboolean too_large;
@@ -87,7 +89,7 @@ static guint add_accessor(Writer *writer, gconstpointer data, gsize bytes, gsize
 
 /* Rows of `width` floats, with their bounds where asked. */
 static guint add_floats(Writer *writer, const float *rows, gsize count, guint width, int target, gboolean bounded) {
-  static const char *const types[] = {NULL, "SCALAR", NULL, "VEC3", "VEC4"};
+  static const char *const types[] = {NULL, "SCALAR", "VEC2", "VEC3", "VEC4"};
   float bounds[8];
   for (guint k = 0; bounded && k < width; k++) {
     bounds[k] = bounds[width + k] = rows[k];
@@ -114,7 +116,16 @@ static float *normals_of(const double *vertices, const SporeTriangleMesh *mesh) 
   return rounded;
 }
 
-static void add_target(Writer *writer, const SporeGltfBody *body, guint key, const float *base, const float *normals) {
+/* Adds rows of 3 numbers of the mesh's vertices, for each vertex that the split has of them. */
+static guint add_rows(Writer *writer, const SporeSurfaceSplit *split, const float *rows, gboolean bounded) {
+  g_autofree float *spread = g_new(float, 3 * split->count + 1);
+  for (gsize i = 0; i < split->count; i++)
+    memcpy(spread + 3 * i, rows + 3 * (gsize)split->vertices[i], 3 * sizeof *rows);
+  return add_floats(writer, spread, split->count, 3, ARRAY_BUFFER, bounded);
+}
+
+static void add_target(Writer *writer, const SporeGltfBody *body, const SporeSurfaceSplit *split, guint key,
+                       const float *base, const float *normals) {
   const SporeTriangleMesh *mesh = &body->surface.mesh;
   const float *frame = body->keys->keys->pdata[key];
   gsize count = 3 * mesh->vertex_count;
@@ -123,8 +134,7 @@ static void add_target(Writer *writer, const SporeGltfBody *body, guint key, con
   for (gsize i = 0; i < count; i++) vertices[i] = (double)frame[i], moved[i] = frame[i] - base[i];
   g_autofree float *turned = normals_of(vertices, mesh);
   for (gsize i = 0; i < count; i++) turned[i] -= normals[i];
-  guint place = add_floats(writer, moved, mesh->vertex_count, 3, ARRAY_BUFFER, TRUE);
-  guint turn = add_floats(writer, turned, mesh->vertex_count, 3, ARRAY_BUFFER, FALSE);
+  guint place = add_rows(writer, split, moved, TRUE), turn = add_rows(writer, split, turned, FALSE);
   g_string_append_printf(writer->meshes, "%s{\"POSITION\":%u,\"NORMAL\":%u}", key > 1 ? "," : "", place, turn);
 }
 
@@ -138,19 +148,32 @@ static void add_mesh(Writer *writer, const SporeGltfBody *body, gsize number) {
   g_autofree float *base = g_new(float, count);
   for (gsize i = 0; i < count; i++) base[i] = (float)mesh->vertices[i];
   g_autofree float *normals = normals_of(mesh->vertices, mesh);
-  guint place = add_floats(writer, base, mesh->vertex_count, 3, ARRAY_BUFFER, TRUE);
-  guint normal = add_floats(writer, normals, mesh->vertex_count, 3, ARRAY_BUFFER, FALSE);
-  guint corners = add_accessor(writer, mesh->triangles, 3 * mesh->triangle_count * sizeof *mesh->triangles,
+  SporeSurfaceSplit split;
+  spore_surface_split_init(&split, &body->surface);
+  guint place = add_rows(writer, &split, base, TRUE), normal = add_rows(writer, &split, normals, FALSE);
+  guint corners = add_accessor(writer, split.triangles, 3 * mesh->triangle_count * sizeof *split.triangles,
                                3 * mesh->triangle_count, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER, NULL, 1);
   separate(writer->meshes);
   g_string_append_printf(writer->meshes,
-                         "{\"name\":\"%s\",\"primitives\":[{\"attributes\":{\"POSITION\":%u,\"NORMAL\":%u},"
-                         "\"indices\":%u,\"material\":%zu",
-                         body->surface.name, place, normal, corners, number);
+                         "{\"name\":\"%s\",\"primitives\":[{\"attributes\":{\"POSITION\":%u,\"NORMAL\":%u",
+                         body->surface.name, place, normal);
+  if (split.places)
+    g_string_append_printf(writer->meshes, ",\"TEXCOORD_0\":%u",
+                           add_floats(writer, split.places, split.count, 2, ARRAY_BUFFER, FALSE));
+  g_string_append_printf(writer->meshes, "},\"indices\":%u,\"material\":%zu", corners, number);
   guint targets = target_count(body);
   if (targets) g_string_append(writer->meshes, ",\"targets\":[");
-  for (guint key = 1; key <= targets && goes_on(writer); key++) add_target(writer, body, key, base, normals);
+  for (guint key = 1; key <= targets && goes_on(writer); key++) add_target(writer, body, &split, key, base, normals);
+  spore_surface_split_clear(&split);
   g_string_append(writer->meshes, targets ? "]}]}" : "}]}");
+}
+
+/* The number of the picture, which is written once for all bodies that wear it. */
+static guint add_picture(Writer *writer, GBytes *picture) {
+  guint number = 0;
+  while (number < writer->pictures->len && !g_bytes_equal(writer->pictures->pdata[number], picture)) number++;
+  if (number == writer->pictures->len) g_ptr_array_add(writer->pictures, picture);
+  return number;
 }
 
 static void add_material(Writer *writer, const SporeNamedSurface *surface) {
@@ -164,7 +187,11 @@ static void add_material(Writer *writer, const SporeNamedSurface *surface) {
   append_number(writer->materials, ROUGHNESS_DRY + (ROUGHNESS_WET - ROUGHNESS_DRY) * surface->wetness);
   g_string_append(writer->materials, ",\"baseColorFactor\":[");
   append_numbers(writer->materials, colour, 4);
-  g_string_append(writer->materials, "]}}");
+  g_string_append_c(writer->materials, ']');
+  if (surface->picture)
+    g_string_append_printf(writer->materials, ",\"baseColorTexture\":{\"index\":%u}",
+                           add_picture(writer, surface->picture));
+  g_string_append(writer->materials, "}}");
 }
 
 /* x y z w. */
@@ -243,6 +270,31 @@ static void add_motion(Writer *writer, const SporeGltfBody *bodies, gsize count,
 
 /* The file. */
 
+/* Puts the pictures behind the numbers. Each begins where a word does. */
+static void add_pictures(Writer *writer) {
+  for (guint i = 0; i < writer->pictures->len; i++) {
+    gsize size;
+    gconstpointer bytes = g_bytes_get_data(writer->pictures->pdata[i], &size);
+    if (writer->numbers->len + size > MOST_BYTES) writer->too_large = TRUE;
+    if (writer->too_large) return;
+    separate(writer->views);
+    g_string_append_printf(writer->views, "{\"buffer\":0,\"byteOffset\":%u,\"byteLength\":%zu}", writer->numbers->len,
+                           size);
+    g_byte_array_append(writer->numbers, bytes, (guint)size);
+    g_byte_array_append(writer->numbers, (const guint8 *)"\0\0\0", (4 - size % 4) % 4);
+  }
+}
+
+/* Each texture is its picture, repeated beyond its borders. */
+static void describe_pictures(const Writer *writer, GString *text) {
+  guint count = writer->pictures->len;
+  for (guint i = 0; i < count; i++) g_string_append_printf(text, "%s{\"source\":%u}", i ? "," : ",\"textures\":[", i);
+  for (guint i = 0; i < count; i++)
+    g_string_append_printf(text, "%s{\"mimeType\":\"image/png\",\"bufferView\":%u}", i ? "," : "],\"images\":[",
+                           writer->view_count + i);
+  if (count) g_string_append_c(text, ']');
+}
+
 static GString *describe(const Writer *writer, gsize count) {
   GString *text =
       g_string_new("{\"asset\":{\"version\":\"2.0\",\"generator\":\"SPORE\"},\"scene\":0,\"scenes\":[{\"nodes\":[");
@@ -251,6 +303,7 @@ static GString *describe(const Writer *writer, gsize count) {
                          writer->nodes->str, writer->meshes->str, writer->materials->str, writer->accessors->str);
   g_string_append_printf(text, "\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%u}]", writer->views->str,
                          writer->numbers->len);
+  describe_pictures(writer, text);
   if (writer->channels->len)
     g_string_append_printf(text, ",\"animations\":[{\"name\":\"run\",\"samplers\":[%s],\"channels\":[%s]}]",
                            writer->samplers->str, writer->channels->str);
@@ -281,7 +334,7 @@ static void refuse(const Writer *writer, GError **error) {
 
 GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GArray *times, const SporeCancel *cancel,
                               GError **error) {
-  Writer writer = {.numbers = g_byte_array_new(), .cancel = cancel};
+  Writer writer = {.numbers = g_byte_array_new(), .pictures = g_ptr_array_new(), .cancel = cancel};
   GString **const lists[] = {&writer.views, &writer.accessors, &writer.meshes,  &writer.materials,
                              &writer.nodes, &writer.samplers,  &writer.channels};
   for (gsize i = 0; i < G_N_ELEMENTS(lists); i++) *lists[i] = g_string_new(NULL);
@@ -291,11 +344,13 @@ GByteArray *spore_gltf_format(const SporeGltfBody *bodies, gsize count, const GA
     add_node(&writer, &bodies[i], i);
   }
   add_motion(&writer, bodies, count, times);
+  add_pictures(&writer);
   GString *text = goes_on(&writer) ? describe(&writer, count) : NULL;
   GByteArray *file = text ? join(text, writer.numbers) : NULL;
   if (text) g_string_free(text, TRUE);
   else refuse(&writer, error);
   for (gsize i = 0; i < G_N_ELEMENTS(lists); i++) g_string_free(*lists[i], TRUE);
   g_byte_array_unref(writer.numbers);
+  g_ptr_array_unref(writer.pictures);
   return file;
 }

@@ -5,14 +5,41 @@
 #include <string.h>
 
 #include "core/io/scanner.h"
+#include "core/io/surface_split.h"
 
 #define STL_HEAD 80
 
+void spore_named_surface_clear(SporeNamedSurface *surface) {
+  spore_triangle_mesh_clear(&surface->mesh);
+  g_clear_pointer(&surface->picture, g_bytes_unref);
+  g_clear_pointer(&surface->places, g_free);
+}
+
 /* OBJ. */
+
+/* Places count from below there. Returns how many there are. */
+static gsize append_places(GString *text, const SporeSurfaceSplit *split) {
+  for (gsize i = 0; split->places && i < split->count; i++) {
+    const double place[2] = {(double)split->places[2 * i], 1 - (double)split->places[2 * i + 1]};
+    g_string_append(text, "vt ");
+    spore_append_reals(text, place, 1, 2, "");
+  }
+  return split->places ? split->count : 0;
+}
+
+/* vertex, place: number of the object's first one. */
+static void append_faces(GString *text, const SporeSurfaceSplit *split, gsize triangles, gsize vertex, gsize place) {
+  for (gsize i = 0; i < 3 * triangles; i++) {
+    guint32 corner = split->triangles[i];
+    g_string_append_printf(text, "%s%zu", i % 3 ? " " : "f ", vertex + split->vertices[corner]);
+    if (split->places) g_string_append_printf(text, "/%zu", place + corner);
+    if (i % 3 == 2) g_string_append_c(text, '\n');
+  }
+}
 
 char *spore_obj_format_scene(const SporeNamedSurface *surfaces, gsize count, const char *materials, gsize *size) {
   GString *text = g_string_new("# SPORE: unit metre\n");
-  gsize before = 1; /* vertices count from 1 in all objects together */
+  gsize before = 1, placed = 1; /* vertices and places count from 1 in all objects together */
   g_string_append_printf(text, "mtllib %s\n", materials);
   for (gsize s = 0; s < count; s++) {
     const SporeTriangleMesh *mesh = &surfaces[s].mesh;
@@ -21,21 +48,24 @@ char *spore_obj_format_scene(const SporeNamedSurface *surfaces, gsize count, con
       g_string_append(text, "v ");
       spore_append_reals(text, mesh->vertices + 3 * i, 1, 3, "");
     }
-    for (gsize i = 0; i < mesh->triangle_count; i++) {
-      const guint32 *corner = mesh->triangles + 3 * i;
-      g_string_append_printf(text, "f %zu %zu %zu\n", before + corner[0], before + corner[1], before + corner[2]);
-    }
+    SporeSurfaceSplit split;
+    spore_surface_split_init(&split, &surfaces[s]);
+    gsize places = append_places(text, &split);
+    append_faces(text, &split, mesh->triangle_count, before, placed);
+    spore_surface_split_clear(&split);
     before += mesh->vertex_count;
+    placed += places;
   }
   *size = text->len;
   return g_string_free(text, FALSE);
 }
 
-char *spore_mtl_format(const SporeNamedSurface *surfaces, gsize count, gsize *size) {
+char *spore_mtl_format(const SporeNamedSurface *surfaces, gsize count, char *const *pictures, gsize *size) {
   GString *text = g_string_new("# SPORE: colours in sRGB\n");
   for (gsize s = 0; s < count; s++) {
     g_string_append_printf(text, "newmtl %s\nKd ", surfaces[s].name);
     spore_append_reals(text, surfaces[s].colour, 1, 3, "");
+    if (pictures[s]) g_string_append_printf(text, "map_Kd %s\n", pictures[s]);
   }
   *size = text->len;
   return g_string_free(text, FALSE);

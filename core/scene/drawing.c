@@ -70,8 +70,10 @@ static gboolean is_straddling(const SporePartSource *source, const guint32 *corn
   return FALSE;
 }
 
-static void keep_triangle(SporeDrawnPart *part, const guint32 *triangle) {
-  memcpy(part->elements + 3 * part->element_count++, triangle, 3 * sizeof *triangle);
+static void keep_triangle(SporeDrawnPart *part, gsize i) {
+  gsize kept = part->element_count++;
+  memcpy(part->elements + 3 * kept, part->source->whole + 3 * i, 3 * sizeof *part->elements);
+  if (part->places) memcpy(part->places + 6 * kept, part->source->texture.places + 6 * i, 6 * sizeof *part->places);
 }
 
 /* The triangles that no cut goes through. */
@@ -85,7 +87,7 @@ static void take_triangles(SporeDrawnPart *part, const SporeSnapshot *snapshot) 
     const guint32 *triangle = source->whole + 3 * i;
     gboolean cut = corners ? is_straddling(source, corners, triangle)
                            : edges && edges->len && spore_triangle_is_cut(&source->mapping, triangle, edges);
-    if (!cut) keep_triangle(part, triangle);
+    if (!cut) keep_triangle(part, i);
   }
   part->cut = part->element_count != source->whole_count;
 }
@@ -217,6 +219,7 @@ static void clear_part(gpointer data) {
   g_free(part->velocities);
   g_free(part->radii);
   g_free(part->elements);
+  g_free(part->places);
   g_free(part->rest);
 }
 
@@ -225,6 +228,7 @@ static void make_arrays(SporeDrawnPart *part) {
   const SporePartSource *source = part->source;
   if (source->radii) part->radii = g_memdup2(source->radii, (source->count + 1) * sizeof *source->radii);
   if (source->whole) part->elements = g_new(guint32, 4 * source->whole_count + 1);
+  if (part->picture) part->places = g_new(float, 6 * source->whole_count + 1);
 }
 
 SporeDrawing *spore_drawing_new(SporeDocument *document, const SporeSimulation *simulation, GError **error) {

@@ -38,6 +38,8 @@ typedef struct SporeDrawnPart {
   gsize element_count;            /* triangles or tetrahedra */
   guint32 *elements;              /* element_count x 3 or 4 */
   gboolean cut;                   /* elements or points are others than at time 0, since the body was cut or torn */
+  GBytes *picture;                /* of a surface: PNG that lies over it (core/scene/texture.h); NULL: none */
+  float *places;                  /* then where: of the corners of the triangles, x 3 x 2 */
   double *rest;                   /* of cells: count x 3, world: at rest, where the body stands at time 0 */
   struct SporePartSource *source; /* private */
 } SporeDrawnPart;

@@ -3,6 +3,7 @@
 #define SPORE_SCENE_DRAWING_PRIVATE_H
 
 #include "core/scene/drawing.h"
+#include "core/scene/texture.h"
 
 /* Where a part comes from. */
 typedef struct SporePartSource {
@@ -12,6 +13,7 @@ typedef struct SporePartSource {
   double *own_points;
   gsize whole_count;    /* elements before any cut */
   const guint32 *whole; /* borrowed from the document */
+  SporeTexture texture; /* of a surface: places of the whole elements */
   double *radii;        /* count, of a line or points; NULL: none */
 
   SporeMapping mapping;

@@ -10,6 +10,7 @@ void spore_part_source_free(SporePartSource *source) {
   g_free(source->radii);
   if (source->mapped) spore_mapping_clear(&source->mapping);
   spore_free(source->places);
+  spore_texture_clear(&source->texture);
   g_free(source);
 }
 
@@ -46,12 +47,16 @@ static SporeObject *asset_of(const Body *body, const char *unit, const char *pro
   return name ? spore_document_find(body->drawing->document, element, name) : NULL;
 }
 
-static gboolean add_mesh(Body *body, SporeObject *asset, GError **error) {
+static gboolean add_mesh(Body *body, SporeObject *asset, gboolean textured, GError **error) {
   const SporeTriangleMesh *mesh = spore_document_mesh(body->drawing->document, asset, error);
   if (!mesh) return FALSE;
-  SporePartSource *source = add_part(body, SPORE_PART_SURFACE)->source;
+  SporeDrawnPart *part = add_part(body, SPORE_PART_SURFACE);
+  SporePartSource *source = part->source;
   source->count = mesh->vertex_count, source->points = mesh->vertices;
   source->whole_count = mesh->triangle_count, source->whole = mesh->triangles;
+  const SporeObject *visual = textured ? spore_object_child_of(body->object, "visual") : NULL;
+  if (visual && spore_texture_read(body->drawing->document, visual, &source->texture, NULL)) /* check says why not */
+    part->picture = source->texture.picture;
   return TRUE;
 }
 
@@ -132,9 +137,9 @@ static gboolean add_parts(Body *body, GError **error) {
   SporeObject *cells = asset_of(body, "mechanical", "geometry", "tetrahedra");
   SporeObject *curve = asset_of(body, "mechanical", "geometry", "curve");
   if (particles && particles->puff) return add_puffs(body), TRUE;
-  if (mesh && !add_mesh(body, mesh, error)) return FALSE;
+  if (mesh && !add_mesh(body, mesh, TRUE, error)) return FALSE;
   if (particles) return body->shown || add_spheres(body, error); /* its geometry is what it filled at the start */
-  if (surface && !body->shown && !add_mesh(body, surface, error)) return FALSE;
+  if (surface && !body->shown && !add_mesh(body, surface, FALSE, error)) return FALSE;
   if (cells && !add_cells(body, cells, error)) return FALSE;
   if (curve && !add_line(body, curve, error)) return FALSE;
   return body->shown || add_spheres(body, error);

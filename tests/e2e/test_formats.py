@@ -17,6 +17,7 @@ import tempfile
 from xml.etree import ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import shapes
 import vtk_files
 from tap import Skip, check, long_run, main, wait_for_work
 
@@ -307,7 +308,7 @@ class Film:
     def rows(self, accessor):
         one = self.json["accessors"][accessor]
         view = self.json["bufferViews"][one["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[one["type"]]
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[one["type"]]
         numbers = array.array("I" if one["componentType"] == 5125 else "f", self.numbers[view["byteOffset"]:view["byteOffset"] + view["byteLength"]])
         assert len(numbers) == width * one["count"]
         rows = list(zip(*[iter(numbers)] * width))
@@ -378,6 +379,50 @@ def a_film_moves_as_the_series(*_):
         assert any((film.nodes[name], "rotation") in film.tracks for name in rigid)
 
 
+def import_worn(folder):
+    """A sphere that wears a picture with a seam, as a net that falls: its scene, and the bytes of its picture."""
+    folder.mkdir()
+    picture = shapes.png(16, 16, lambda x, y: (200, 16 * x, 16 * y))
+    (folder / "skin.png").write_bytes(picture)
+    (folder / "worn.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
+    (folder / "worn.obj").write_text(shapes.worn_obj(*shapes.sphere(), "worn.mtl", "skin"))
+    run(SPORE, "import", folder / "worn.obj", "-o", folder / "scene" / "worn.spore")
+    run(SPORE, "edit", folder / "scene" / "worn.spore", "--set", "bodies/worn/role=passive", "--add", "bodies/worn/mechanical/mass_spring_net",
+        "--set", "bodies/worn/mechanical/geometry=worn")
+    return folder / "scene" / "worn.spore", picture
+
+
+def places_of(scene):
+    """The picture's bytes and its places in a scene with one body."""
+    visual = ElementTree.parse(scene).find(".//visual")
+    return (scene.parent / visual.get("texture")).read_bytes(), [float(x) for x in (scene.parent / visual.get("texture_places")).read_text().split()[2:]]
+
+
+@check
+def pictures_come_back(*_):
+    """OBJ and glTF hold the picture on a body and its places; imported again both are the same; PLY says that it loses the picture"""
+    if "assimp" not in FEATURES:
+        raise Skip("built without assimp")
+    scene, picture = import_worn(FOLDER / "worn")
+    _, places = places_of(scene)
+    for form in ("obj", "glb"):
+        report = export(scene.with_suffix(""), {"obj": "obj", "glb": "gltf"}[form], FOLDER / f"worn.{form}")
+        assert not any("picture" in sentence for sentence in report["lost"]), report["lost"]
+        run(SPORE, "import", FOLDER / f"worn.{form}", "-o", FOLDER / form / "again.spore")
+        kept, again = places_of(FOLDER / form / "again.spore")
+        assert kept == picture and len(again) == len(places) and all(abs(a - b) < 1e-5 for a, b in zip(places, again)), form
+    assert (FOLDER / "worn-worn.png").read_bytes() == picture
+    assert any("picture on its surface" in sentence for sentence in export(scene.with_suffix(""), "ply", FOLDER / "worn.ply")["lost"])
+    export(scene.with_suffix(""), "gltf", FOLDER / "falling.glb", "--time", "0.02", "--every", "0.01")
+    film = Film(FOLDER / "falling.glb")
+    mesh = film.mesh("worn")
+    vertices, coordinates = (film.rows(mesh["attributes"][name]) for name in ("POSITION", "TEXCOORD_0"))
+    assert len(coordinates) == len(vertices) > len(set(vertices)) == len(shapes.sphere()[0])
+    for target in mesh["targets"]:
+        moved = film.rows(target["POSITION"])
+        assert len(moved) == len(vertices) and len(set(zip(vertices, moved))) == len(set(vertices)) and any(row[1] < -1e-5 for row in moved)
+
+
 @check
 def a_validator_and_an_importer_read_films(*_):
     """glTF: the validator of the Khronos Group finds nothing, and spore import the bodies with names, colours and areas"""
@@ -399,6 +444,8 @@ def a_validator_and_an_importer_read_films(*_):
             expected = area(*ours[mesh["body"]])
             assert abs(mesh["as_read"]["area_m2"] - expected) < 1e-5 * expected, mesh
             assert all(abs(a - b) < 0.005 for a, b in zip(mesh["colour"], colours[mesh["body"]], strict=True)), (mesh, colours)
+        files.append(FOLDER / "textured.glb")
+        export(import_worn(FOLDER / "textured")[0].with_suffix(""), "gltf", files[-1], "--time", "0.02", "--every", "0.01")
     validate(files)
 
 

@@ -19,11 +19,14 @@ const SporeExportFormat spore_export_formats[] = {
         "displacement and strain, lines, particles, all with velocities"),
      spore_export_vtk},
     {"gltf", SPORE_EXPORT_SERIES, ".glb", N_("glTF"),
-     N_("one .glb file: surfaces with materials; over time, rigid bodies as tracks, others as morph targets of few key "
+     N_("one .glb file: surfaces with materials and pictures; over time, rigid bodies as tracks, others as morph "
+        "targets of few key "
         "frames"),
      spore_export_gltf},
     {"obj", SPORE_EXPORT_ONE_MOMENT, ".obj", N_("OBJ"),
-     N_("the surfaces at a moment, in metres: an object for each body, and F.mtl with the colours"), spore_export_obj},
+     N_("the surfaces at a moment, in metres: an object for each body, F.mtl with the colours, and F-BODY.png with its "
+        "picture"),
+     spore_export_obj},
     {"ply", SPORE_EXPORT_ONE_MOMENT, ".ply", N_("PLY"),
      N_("the surfaces at a moment, in metres: one mesh with colours"), spore_export_ply},
     {"stl", SPORE_EXPORT_ONE_MOMENT, ".stl", N_("STL"), N_("the surfaces at a moment, in metres: one mesh"),

@@ -39,18 +39,16 @@ static double diagonal_of(const SporeTriangleMesh *mesh) {
 
 static gboolean add_body(Film *film, const SporeDrawnPart *part, guint number, GError **error) {
   gboolean moves = film->export->stride && part->moves;
-  SporeGltfBody gltf = {.surface = {.name = g_intern_string(part->name), .wetness = part->wetness},
+  SporeGltfBody gltf = {.surface = spore_export_surface(part),
                         .pose = part->framed ? part->frame : spore_pose_identity()};
   Body body = {.part = number, .framed = part->framed, .whole = TRUE};
   SporeTriangleMesh *mesh = &gltf.surface.mesh;
-  memcpy(gltf.surface.colour, part->colour, sizeof gltf.surface.colour);
-  if (!(part->framed ? spore_drawn_part_local_mesh(part, mesh, error)
-                     : spore_drawn_part_mesh_of_points(part, mesh, &body.points, error)))
-    return FALSE;
-  if (!mesh->triangle_count) {
-    spore_triangle_mesh_clear(mesh);
+  gboolean done = part->framed ? spore_drawn_part_local_mesh(part, mesh, error)
+                               : spore_drawn_part_mesh_of_points(part, mesh, &body.points, error);
+  if (!done || !mesh->triangle_count) {
+    spore_named_surface_clear(&gltf.surface);
     g_free(body.points);
-    return TRUE;
+    return done;
   }
   if (moves && part->framed) gltf.poses = g_array_new(FALSE, FALSE, sizeof(SporePose));
   if (moves && !part->framed) spore_motion_keys_init(&body.keys, mesh->vertex_count, BOUND * diagonal_of(mesh));
@@ -167,7 +165,7 @@ static void clear_film(Film *film) {
   for (guint i = 0; i < film->bodies->len; i++) {
     Body *body = body_of(film, i);
     SporeGltfBody *gltf = gltf_of(film, i);
-    spore_triangle_mesh_clear(&gltf->surface.mesh);
+    spore_named_surface_clear(&gltf->surface);
     if (gltf->poses) g_array_unref(gltf->poses);
     if (body->keys.keys) spore_motion_keys_clear(&body->keys);
     g_free(body->points);
@@ -187,6 +185,6 @@ gboolean spore_export_gltf(SporeExport *export, GError **error) {
   gboolean done = write_film(&film, error);
   clear_film(&film);
   spore_export_lose(export, g_strdup(_("what lies beneath surfaces: tetrahedra, middle lines, particles")));
-  spore_export_lose_physics(export, TRUE);
+  spore_export_lose_physics(export, TRUE, TRUE);
   return done;
 }

@@ -2,6 +2,7 @@
 #ifndef SPORE_UI_EXPORT_PRIVATE_H
 #define SPORE_UI_EXPORT_PRIVATE_H
 
+#include "core/io/surface_write.h"
 #include "core/scene/drawing.h"
 #include "ui/export/export.h"
 
@@ -28,8 +29,11 @@ typedef gboolean (*SporeExportMoment)(gpointer data, const SporeDrawing *drawing
 gboolean spore_export_show(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
 /* Adds the sections of the scene that no other program knows: tools, devices, exercise and so on. links: these too. */
 void spore_export_lose_sections(SporeExport *export, gboolean links);
-/* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has them. */
-void spore_export_lose_physics(SporeExport *export, gboolean colours);
+/* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours, pictures: the format has
+ * these. */
+void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean pictures);
+/* What the part looks like, without its mesh: with its picture and the places of its triangles, where it has them. */
+SporeNamedSurface spore_export_surface(const SporeDrawnPart *part);
 
 /* For formats of XML that hold bodies. */
 

@@ -1,7 +1,9 @@
 /* What exports of a run share: the scene at its moments, and what pictures of a scene do not hold. */
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "core/scene/compile.h"
+#include "core/scene/texture.h"
 #include "ui/export/private.h"
 
 static gboolean is_moment(const SporeExport *export, guint64 step) {
@@ -58,20 +60,32 @@ void spore_export_lose_sections(SporeExport *export, gboolean links) {
       spore_export_lose(export, g_strdup(_(sections[i].sentence)));
 }
 
-static void lose_textures(SporeExport *export) {
+/* pictures: the format has those that can be read. */
+static void lose_textures(SporeExport *export, gboolean pictures) {
   const SporeObject *bodies = spore_document_section(export->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     const SporeObject *body = spore_object_child(bodies, i), *visual = spore_object_child_of(body, "visual");
-    if (visual && spore_object_text(visual, "texture"))
-      spore_export_lose(export, g_strdup_printf(_("%s: the picture on its surface"), spore_object_name(body)));
+    SporeTexture texture;
+    if (!visual || !spore_object_text(visual, "texture")) continue;
+    if (pictures && spore_texture_read(export->document, visual, &texture, NULL)) spore_texture_clear(&texture);
+    else spore_export_lose(export, g_strdup_printf(_("%s: the picture on its surface"), spore_object_name(body)));
   }
 }
 
-void spore_export_lose_physics(SporeExport *export, gboolean colours) {
+void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean pictures) {
   spore_export_lose_sections(export, TRUE);
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
-  lose_textures(export);
+  lose_textures(export, pictures);
+}
+
+SporeNamedSurface spore_export_surface(const SporeDrawnPart *part) {
+  SporeNamedSurface surface = {.name = g_intern_string(part->name), .wetness = part->wetness};
+  memcpy(surface.colour, part->colour, sizeof surface.colour);
+  if (!part->picture || !part->element_count) return surface;
+  surface.picture = g_bytes_ref(part->picture);
+  surface.places = g_memdup2(part->places, 6 * part->element_count * sizeof *part->places);
+  return surface;
 }
 
 gboolean spore_export_refuse_empty(const SporeExport *export, GError **error) {

@@ -132,6 +132,6 @@ gboolean spore_export_vtk(SporeExport *export, GError **error) {
                    .still = g_ptr_array_new_with_free_func(g_free)};
   gboolean done = write_series(&series, error);
   close_series(&series);
-  spore_export_lose_physics(export, FALSE);
+  spore_export_lose_physics(export, FALSE, FALSE);
   return done;
 }
