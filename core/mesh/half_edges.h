@@ -28,9 +28,12 @@ static inline size_t spore_half_edges_end(const SporeHalfEdges *halves, size_t b
 /* True when there is an edge between two vertices. */
 bool spore_half_edges_have(const SporeHalfEdges *halves, uint32_t a, uint32_t b);
 
+/* The next side of the same triangle. */
+static inline uint32_t spore_half_edge_after(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+
 /* True when the half-edge runs from the smaller to the larger vertex. */
 static inline bool spore_half_edge_ascends(const uint32_t *triangles, uint32_t half) {
-  return triangles[half] < triangles[half % 3 == 2 ? half - 2 : half + 1];
+  return triangles[half] < triangles[spore_half_edge_after(half)];
 }
 
 /* Disjoint sets with path halving; `parent` starts as the identity. The least member stands for the set. */

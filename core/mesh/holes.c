@@ -29,8 +29,6 @@ typedef struct Filling {
 #define NONE UINT32_MAX
 #define OPEN (UINT32_MAX - 1)
 
-static uint32_t next_side(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
-
 static void find_twins(Filling *f) {
   const uint32_t *half = f->halves.half;
   memset(f->twin, 0xff, 3 * f->mesh->triangle_count * sizeof *f->twin);
@@ -47,11 +45,11 @@ static void find_twins(Filling *f) {
 
 /* The open half-edge that starts where `half` ends, found around that corner. NONE: other triangles are in the way. */
 static uint32_t next_open(const Filling *f, uint32_t half) {
-  uint32_t at = next_side(half);
+  uint32_t at = spore_half_edge_after(half);
   for (size_t turns = 0; turns < f->halves.count; turns++) {
     if (f->twin[at] == OPEN) return at;
     if (f->twin[at] == NONE) return NONE;
-    at = next_side(f->twin[at]);
+    at = spore_half_edge_after(f->twin[at]);
   }
   return NONE;
 }

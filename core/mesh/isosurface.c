@@ -15,7 +15,6 @@
 #define WIDE 1.7321f /* in steps: where the field is farther from 0, the surface cannot pass through the cube */
 #define LATTICE_POINT (UINT64_C(1) << 63) /* key of a point of the lattice, beside those of edges */
 #define VERTICES_A_REPORT 1024
-#define ROOTS 6 /* tries, on an edge */
 
 typedef struct Lattice {
   size_t size[3]; /* points */
@@ -127,8 +126,8 @@ static bool push(Corners *corners, uint64_t edge) {
   return true;
 }
 
-/* Adds a triangle, oriented outward. The midpoints of its edges decide on the orientation, independent of the values.
- */
+/* Adds a triangle, oriented outward, unless corners of it lie on one point. The midpoints of its edges decide on the
+ * orientation, independent of the values. */
 static bool add_triangle(const SporeIsosurfaceCells *cells, Corners *corners, uint32_t edges[3][2]) {
   SporeVec3 middle[3], out = {0, 0, 0};
   uint64_t at[3];
@@ -136,8 +135,10 @@ static bool add_triangle(const SporeIsosurfaceCells *cells, Corners *corners, ui
     SporeVec3 in = cells->points[edges[e][0]].place, beyond = cells->points[edges[e][1]].place;
     middle[e] = spore_vec3_scale(0.5, spore_vec3_add(in, beyond));
     out = spore_vec3_add(out, spore_vec3_sub(beyond, in));
-    at[e] = spore_isosurface_edge(edges[e][0], edges[e][1]);
+    at[e] = cells->points[edges[e][0]].on ? spore_isosurface_edge(edges[e][0], edges[e][0])
+                                          : spore_isosurface_edge(edges[e][0], edges[e][1]);
   }
+  if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) return true;
   SporeVec3 normal = spore_vec3_cross(spore_vec3_sub(middle[1], middle[0]), spore_vec3_sub(middle[2], middle[0]));
   bool turned = !(spore_vec3_dot(normal, out) > 0);
   return push(corners, at[0]) && push(corners, at[1 + turned]) && push(corners, at[2 - turned]);
@@ -145,6 +146,7 @@ static bool add_triangle(const SporeIsosurfaceCells *cells, Corners *corners, ui
 
 static bool cut_cells(const SporeIsosurfaceCells *cells, Corners *corners, SporeError *error) {
   uint32_t triangles[2][3][2];
+  corners->count = 0;
   for (size_t i = 0; i < cells->cell_count; i++) {
     size_t count = cells->cells[i].tag ? spore_isosurface_cut(cells, &cells->cells[i], triangles) : 0;
     for (size_t t = 0; t < count; t++)
@@ -153,31 +155,15 @@ static bool cut_cells(const SporeIsosurfaceCells *cells, Corners *corners, Spore
   return true;
 }
 
-/* The point of an edge at which the field vanishes, by false position. It lies between the ends of the edge for any
- * field. */
 static SporeVec3 vertex_at(const SporeIsosurfaceCells *cells, uint64_t edge) {
-  SporeIsosurfacePoint in = cells->points[edge >> 32], out = cells->points[(uint32_t)edge];
-  if (in.value > 0) {
-    SporeIsosurfacePoint swap = in;
-    in = out, out = swap;
-  }
-  SporeVec3 x = in.place;
-  bool was_in = false, was_out = false;
-  for (int k = 0; k < ROOTS; k++) {
-    x = spore_vec3_add_scaled(in.place, in.value / (in.value - out.value), spore_vec3_sub(out.place, in.place));
-    double value = cells->field(cells->data, x);
-    if (fabs(value) < SPORE_ISOSURFACE_ON * cells->step) break;
-    if (value < 0) in = (SporeIsosurfacePoint){x, value, 0}, out.value *= was_in ? 0.5 : 1;
-    else out = (SporeIsosurfacePoint){x, value, 0}, in.value *= was_out ? 0.5 : 1;
-    was_in = value < 0, was_out = !was_in;
-  }
-  return x;
+  const SporeIsosurfacePoint *one = &cells->points[edge >> 32], *other = &cells->points[(uint32_t)edge];
+  return one == other ? one->place : spore_isosurface_root(cells, *one, *other);
 }
 
-/* Makes the mesh, with one vertex for each edge that the surface crosses. */
-static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners, SporeTriangleMesh *mesh,
-                      const SporeProgress *progress, SporeError *error) {
-  size_t count = corners->count, vertices = 0;
+/* Numbers the corners, in the order of what they lie on. edges: of each vertex. */
+static bool number_corners(const Corners *corners, SporeTriangleMesh *mesh, uint64_t **edges, SporeError *error) {
+  const size_t count = corners->count;
+  size_t vertices = 0;
   uint64_t *sorted = SPORE_NEW_ARRAY(uint64_t, count);
   uint32_t *order = SPORE_NEW_ARRAY(uint32_t, count);
   bool made = sorted && order;
@@ -185,27 +171,82 @@ static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners,
   if (!made || !spore_sort_keys(sorted, order, count)) made = spore_mesh_no_memory(error);
   for (size_t i = 0; made && i < count; i++) vertices += i == 0 || sorted[i] != sorted[i - 1];
   made = made && spore_triangle_mesh_allocate(mesh, vertices, count / 3, error);
-  uint32_t number = 0;
-  for (size_t i = 0; made && i < count; i++) {
-    if (i > 0 && sorted[i] != sorted[i - 1]) number++;
-    mesh->triangles[order[i]] = number;
-    if (i > 0 && sorted[i] == sorted[i - 1]) continue;
-    if (number % VERTICES_A_REPORT == 0) made = go_on(progress, (double)i / (double)count, error);
-    spore_vec3_store(mesh->vertices + 3 * (size_t)number, vertex_at(cells, sorted[i]));
+  for (size_t i = 0, number = 0; made && i < count; i++) {
+    if (i > 0 && sorted[i] != sorted[i - 1]) sorted[++number] = sorted[i];
+    mesh->triangles[order[i]] = (uint32_t)number;
   }
-  spore_free(sorted);
   spore_free(order);
+  if (!made) spore_free(sorted);
+  *edges = made ? sorted : NULL;
   return made;
+}
+
+/* A mesh with what its vertices lie on: spore_isosurface_edge, ascending. */
+typedef struct Made {
+  SporeTriangleMesh mesh;
+  uint64_t *edges;
+} Made;
+
+static void clear(Made *made) {
+  spore_triangle_mesh_clear(&made->mesh);
+  spore_free(made->edges);
+  *made = (Made){.edges = NULL};
+}
+
+/* Places the vertices; those that were there before stay. */
+static bool place_vertices(const SporeIsosurfaceCells *cells, Made *made, const Made *before, bool *fresh,
+                           const SporeProgress *progress, SporeError *error) {
+  for (size_t i = 0, j = 0; i < made->mesh.vertex_count; i++) {
+    if (i % VERTICES_A_REPORT == 0 && !go_on(progress, (double)i / (double)made->mesh.vertex_count, error))
+      return false;
+    while (j < before->mesh.vertex_count && before->edges[j] < made->edges[i]) j++;
+    fresh[i] = j == before->mesh.vertex_count || before->edges[j] != made->edges[i];
+    if (fresh[i]) spore_vec3_store(made->mesh.vertices + 3 * i, vertex_at(cells, made->edges[i]));
+    else memcpy(made->mesh.vertices + 3 * i, before->mesh.vertices + 3 * j, 3 * sizeof(double));
+  }
+  return true;
+}
+
+/* Makes the mesh, and takes points back that it should not have; changed: how many. */
+static bool make_once(SporeIsosurfaceCells *cells, double tolerance, Corners *corners, Made *made, size_t *changed,
+                      const SporeProgress *progress, SporeError *error) {
+  Made before = *made;
+  *made = (Made){.edges = NULL};
+  bool *fresh = NULL;
+  *changed = 0;
+  bool done = cut_cells(cells, corners, error);
+  if (done && corners->count > 0) {
+    done = number_corners(corners, &made->mesh, &made->edges, error) &&
+           ((fresh = SPORE_NEW_ARRAY(bool, made->mesh.vertex_count)) || spore_mesh_no_memory(error)) &&
+           place_vertices(cells, made, &before, fresh, progress, error) &&
+           spore_isosurface_unsnap(cells, &made->mesh, made->edges, fresh, tolerance, changed, error);
+  }
+  spore_free(fresh);
+  clear(&before);
+  return done;
+}
+
+static bool make_mesh(SporeIsosurfaceCells *cells, double tolerance, SporeTriangleMesh *mesh,
+                      const SporeProgress *progress, SporeError *error) {
+  Corners corners = {0};
+  Made made = {.edges = NULL};
+  bool done = true;
+  for (size_t changed = 1; done && changed > 0;)
+    done = make_once(cells, tolerance, &corners, &made, &changed, progress, error);
+  spore_free(corners.edge);
+  if (done) {
+    *mesh = made.mesh;
+    made.mesh = (SporeTriangleMesh){0};
+  }
+  clear(&made);
+  return done;
 }
 
 static bool cut(SporeIsosurfaceCells *cells, double tolerance, SporeTriangleMesh *mesh, const SporeProgress *progress,
                 SporeError *error) {
-  Corners corners = {0};
-  bool made = (isinf(tolerance) || spore_isosurface_refine(cells, tolerance, progress, error)) &&
-              cut_cells(cells, &corners, error) &&
-              (corners.count == 0 || make_mesh(cells, &corners, mesh, progress, error));
-  spore_free(corners.edge);
-  return made;
+  return (isinf(tolerance) || (spore_isosurface_refine(cells, tolerance, progress, error) &&
+                               spore_isosurface_snap(cells, progress, error))) &&
+         make_mesh(cells, tolerance, mesh, progress, error);
 }
 
 bool spore_isosurface(const double lower[3], const double upper[3], double step, double tolerance,

@@ -13,6 +13,7 @@ typedef struct SporeIsosurfacePoint {
   SporeVec3 place;
   double value;   /* m */
   uint32_t stamp; /* the pass in which an edge of it was last split */
+  bool on;        /* moved onto the surface; it counts as inside */
 } SporeIsosurfacePoint;
 
 /* A tetrahedron that the surface may go through: its next edge to be split is that from its first corner to corner
@@ -36,10 +37,10 @@ typedef struct SporeIsosurfaceCells {
   uint32_t *entries;
   size_t slots, used;
   uint32_t pass;
+  SporeIsosurfacePoint *home; /* of each point, before any was moved onto the surface; NULL: none was */
 } SporeIsosurfaceCells;
 
 static inline uint64_t spore_isosurface_edge(uint32_t a, uint32_t b) {
-  assert(a != b);
   return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
@@ -54,6 +55,20 @@ size_t spore_isosurface_cut(const SporeIsosurfaceCells *cells, const SporeIsosur
                             uint32_t triangles[2][3][2]);
 /* The point between two points at which the field vanishes, if it is taken as linear. */
 SporeVec3 spore_isosurface_between(const SporeIsosurfaceCells *cells, const uint32_t edge[2]);
+/* The place between two points on both sides at which the field vanishes, by false position. It lies between them for
+ * any field. */
+SporeVec3 spore_isosurface_root(const SporeIsosurfaceCells *cells, SporeIsosurfacePoint in, SporeIsosurfacePoint out);
+/* Moves points onto the surface where one of their edges is crossed nearby, as long as what is inside hangs together as
+ * before and no cell turns over. False: no memory, or cancelled. */
+bool spore_isosurface_snap(SporeIsosurfaceCells *cells, const SporeProgress *progress, SporeError *error);
+/* Whether a triangle is farther than the tolerance (m) from where the field vanishes, at its centre or in the middle of
+ * a side. */
+bool spore_isosurface_is_off(const SporeIsosurfaceCells *cells, const SporeVec3 p[3], double tolerance);
+/* Takes points back that make the surface's mesh touch itself, or stray farther than the tolerance (m); changed: how
+ * many. edges: of each vertex of the mesh, spore_isosurface_edge of what it lies on: twice the same point, where the
+ * point was moved there. fresh: vertices that were not looked at before. False: no memory. */
+bool spore_isosurface_unsnap(SporeIsosurfaceCells *cells, const SporeTriangleMesh *mesh, const uint64_t *edges,
+                             const bool *fresh, double tolerance, size_t *changed, SporeError *error);
 /* Bisects until the surface is within the tolerance (m). False: no memory, or cancelled. */
 bool spore_isosurface_refine(SporeIsosurfaceCells *cells, double tolerance, const SporeProgress *progress,
                              SporeError *error);

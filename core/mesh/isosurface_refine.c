@@ -10,6 +10,7 @@
 
 #define MOST_LEVEL 18      /* bisections: three halve an edge */
 #define MOST_CELLS 8000000 /* no further */
+#define ROOTS 6            /* tries, on an edge */
 #define CELLS_A_REPORT 4096
 #define ROUND (1 + 1e-6)
 #define NONE UINT32_MAX
@@ -65,7 +66,7 @@ uint32_t spore_isosurface_add_point(SporeIsosurfaceCells *cells, SporeVec3 place
   if (!points) return NONE;
   cells->points = points;
   if (fabs(value) < SPORE_ISOSURFACE_ON * cells->step) value = -SPORE_ISOSURFACE_ON * cells->step;
-  points[cells->point_count] = (SporeIsosurfacePoint){place, value, 0};
+  points[cells->point_count] = (SporeIsosurfacePoint){.place = place, .value = value};
   return (uint32_t)cells->point_count++;
 }
 
@@ -92,6 +93,7 @@ bool spore_isosurface_add_cell(SporeIsosurfaceCells *cells, const SporeIsosurfac
 
 void spore_isosurface_clear(SporeIsosurfaceCells *cells) {
   spore_free(cells->points);
+  spore_free(cells->home);
   spore_free(cells->cells);
   spore_free(cells->keys);
   spore_free(cells->entries);
@@ -125,21 +127,42 @@ SporeVec3 spore_isosurface_between(const SporeIsosurfaceCells *cells, const uint
   return spore_vec3_add_scaled(a->place, a->value / (a->value - b->value), spore_vec3_sub(b->place, a->place));
 }
 
-/* Whether the surface in a cell is not accurate enough, at the centres of its triangles and at the midpoints of their
- * sides. */
+SporeVec3 spore_isosurface_root(const SporeIsosurfaceCells *cells, SporeIsosurfacePoint in, SporeIsosurfacePoint out) {
+  if (in.value > 0) {
+    SporeIsosurfacePoint swap = in;
+    in = out, out = swap;
+  }
+  SporeVec3 x = in.place;
+  bool was_in = false, was_out = false;
+  for (int k = 0; k < ROOTS; k++) {
+    x = spore_vec3_add_scaled(in.place, in.value / (in.value - out.value), spore_vec3_sub(out.place, in.place));
+    double value = cells->field(cells->data, x);
+    if (fabs(value) < SPORE_ISOSURFACE_ON * cells->step) break;
+    SporeIsosurfacePoint *moved = value < 0 ? &in : &out;
+    moved->place = x, moved->value = value;
+    if (value < 0) out.value *= was_in ? 0.5 : 1;
+    else in.value *= was_out ? 0.5 : 1;
+    was_in = value < 0, was_out = !was_in;
+  }
+  return x;
+}
+
+bool spore_isosurface_is_off(const SporeIsosurfaceCells *cells, const SporeVec3 p[3], double tolerance) {
+  SporeVec3 middle = spore_vec3_scale(1. / 3, spore_vec3_add(p[0], spore_vec3_add(p[1], p[2])));
+  if (fabs(cells->field(cells->data, middle)) > tolerance) return true;
+  for (int k = 0; k < 3; k++)
+    if (fabs(cells->field(cells->data, spore_vec3_scale(0.5, spore_vec3_add(p[k], p[(k + 1) % 3])))) > tolerance)
+      return true;
+  return false;
+}
+
 static bool is_off(const SporeIsosurfaceCells *cells, const SporeIsosurfaceCell *cell, double tolerance) {
   uint32_t triangles[2][3][2];
   size_t count = spore_isosurface_cut(cells, cell, triangles);
   for (size_t t = 0; t < count; t++) {
-    SporeVec3 p[3], middle = {0, 0, 0};
-    for (int k = 0; k < 3; k++) {
-      p[k] = spore_isosurface_between(cells, triangles[t][k]);
-      middle = spore_vec3_add_scaled(middle, 1. / 3, p[k]);
-    }
-    if (fabs(cells->field(cells->data, middle)) > tolerance) return true;
-    for (int k = 0; k < 3; k++)
-      if (fabs(cells->field(cells->data, spore_vec3_scale(0.5, spore_vec3_add(p[k], p[(k + 1) % 3])))) > tolerance)
-        return true;
+    SporeVec3 p[3];
+    for (int k = 0; k < 3; k++) p[k] = spore_isosurface_between(cells, triangles[t][k]);
+    if (spore_isosurface_is_off(cells, p, tolerance)) return true;
   }
   return false;
 }

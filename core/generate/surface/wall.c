@@ -13,8 +13,7 @@
 #include "core/mesh/simplify.h"
 
 #define FINEST 0.01        /* of the diagonal: largest step of the lattice, unless the wall is thinner */
-#define REFINED 0.56       /* of the thickness over the detail: largest error of the surface from the lattice */
-#define THINNED 0.32       /* of the same: largest error of triangles that replace smaller ones */
+#define OFF 0.5            /* of the thickness over the detail: largest error, on the lattice and of what replaces it */
 #define SPACING (1.0 / 3)  /* of the thickness: between the points at which that error is checked */
 #define MEASURED (1.0 / 6) /* of the thickness: between the points at which the error is reported */
 #define CELL 0.25          /* of the thickness: side of the cubes by which depths are found */
@@ -140,9 +139,9 @@ static bool make_inner(Depth *depth, const SporeMeshReport *box, double step, do
                        const SporeProgress *progress, SporeError *error) {
   double lower[3], upper[3], near = depth->thickness / (detail > 0 ? detail : SPORE_WALL_DETAIL);
   for (int e = 0; e < 3; e++) lower[e] = box->lower[e] - 0.3 * step, upper[e] = box->upper[e] + 0.3 * step;
-  if (!spore_isosurface(lower, upper, step, REFINED * near, beyond_wall, depth, inner, progress, error)) return false;
+  if (!spore_isosurface(lower, upper, step, OFF * near, beyond_wall, depth, inner, progress, error)) return false;
   if (inner->triangle_count == 0) return refuse(depth->bvh, box, depth->thickness, error);
-  const SporeSurfaceLimit limit = {depth->cells, depth->thickness, THINNED * near, SPACING * depth->thickness};
+  const SporeSurfaceLimit limit = {depth->cells, depth->thickness, OFF * near, SPACING * depth->thickness};
   return spore_triangle_mesh_thin(inner, &limit, progress, error);
 }
 
