@@ -241,7 +241,7 @@ static void report_step(SporeCli *cli, const SporeRun *run, gboolean measured) {
 
 /* unpruned: NULL where nothing was measured. */
 static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, const SporeWorld *unpruned) {
-  const SporeDocument *document = run->document;
+  SporeDocument *document = run->document;
   const SporeWorld *world = run->simulation->world;
   const SporePlan *plan = spore_world_plan(world);
   spore_cli_say(cli, "%-14s %-4s %7s %12s %12s  %s\n", _("stage"), _("in?"), _("items"), _("estimate"), _("measured"),
@@ -252,7 +252,7 @@ static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, cons
   report_step(cli, run, unpruned != NULL);
   spore_cli_open_array(cli, "left_out");
   for (gsize i = 0; i < plan->left_out_count; i++) report_left_out(cli, &plan->left_out[i], world, unpruned);
-  spore_plan_report_files_left_out(cli, needs);
+  spore_plan_report_files_left_out(cli, document, needs);
   spore_cli_close_array(cli);
   report_bodies(cli, document, world);
   report_effects(cli, world);
@@ -290,6 +290,9 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
       {"assets",
        N_("files that the scene names: name, use (simulated, drawn, source: something is generated from it, unused), "
           "bytes (null: cannot be read)")},
+      {"textures",
+       N_("files of textures, pictures and their places, which a picture of the scene takes and a run does not: file, "
+          "bytes (null: cannot be read), bodies (names of those that wear it)")},
       {"shaders",
        N_("that a picture of the scene takes; a run takes none: name, bodies (that it draws; 0: it is for the whole "
           "picture; empty: this build makes none)")},

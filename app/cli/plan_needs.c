@@ -64,15 +64,31 @@ static void report_assets(SporeCli *cli, const GArray *needs) {
                   1e-3 * bytes[SPORE_ASSET_SIMULATED], count[SPORE_ASSET_DRAWN], 1e-3 * bytes[SPORE_ASSET_DRAWN]);
 }
 
-static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, const char *reason) {
-  guint count = 0;
-  double bytes = 0;
-  for (guint i = 0; i < needs->len; i++) {
-    const SporeAssetNeed *need = &g_array_index(needs, SporeAssetNeed, i);
-    if (need->use != use) continue;
-    count++;
-    bytes += (double)need->bytes;
+static void report_texture(SporeCli *cli, const SporeTextureNeed *need) {
+  g_autoptr(GString) bodies = g_string_new(NULL);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "file", need->file);
+  spore_cli_number(cli, "bytes", need->bytes ? (double)need->bytes : NAN);
+  spore_cli_open_array(cli, "bodies");
+  for (guint i = 0; i < need->bodies->len; i++) {
+    const char *name = spore_object_name(need->bodies->pdata[i]);
+    spore_cli_text(cli, NULL, name);
+    g_string_append_printf(bodies, i ? ", %s" : "%s", name);
   }
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("texture: %s (%.1f kB), of %s\n"), need->file, 1e-3 * (double)need->bytes, bodies->str);
+}
+
+static void report_textures(SporeCli *cli, SporeDocument *document) {
+  g_autoptr(GArray) needs = spore_document_texture_needs(document);
+  spore_cli_open_array(cli, "textures");
+  for (guint i = 0; i < needs->len; i++) report_texture(cli, &g_array_index(needs, SporeTextureNeed, i));
+  spore_cli_close_array(cli);
+}
+
+/* Files that are left out together. */
+static void report_left_out(SporeCli *cli, guint count, double bytes, const char *reason) {
   if (count == 0) return;
   g_autofree char *what = g_strdup_printf(ngettext("%u file", "%u files", count), count);
   spore_cli_open(cli, NULL);
@@ -84,7 +100,24 @@ static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, 
   spore_cli_say(cli, _("left out: %s (%s): saves %.1f kB\n"), what, reason, 1e-3 * bytes);
 }
 
-void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs) {
+static void report_files(SporeCli *cli, const GArray *needs, SporeAssetUse use, const char *reason) {
+  guint count = 0;
+  double bytes = 0;
+  for (guint i = 0; i < needs->len; i++) {
+    const SporeAssetNeed *need = &g_array_index(needs, SporeAssetNeed, i);
+    if (need->use != use) continue;
+    count++;
+    bytes += (double)need->bytes;
+  }
+  report_left_out(cli, count, bytes, reason);
+}
+
+void spore_plan_report_files_left_out(SporeCli *cli, SporeDocument *document, const GArray *needs) {
+  g_autoptr(GArray) textures = spore_document_texture_needs(document);
+  double bytes = 0;
+  for (guint i = 0; i < textures->len; i++) bytes += (double)g_array_index(textures, SporeTextureNeed, i).bytes;
+  report_left_out(cli, textures->len, bytes, _("textures: a run draws nothing"));
+
   report_files(cli, needs, SPORE_ASSET_SOURCE, _("sources: a run reads what was generated from them"));
   report_files(cli, needs, SPORE_ASSET_UNUSED, _("nothing names them"));
 }
@@ -126,6 +159,7 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
 void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs) {
   report_models(cli, run->simulation->world);
   report_assets(cli, needs);
+  report_textures(cli, run->document);
   report_shaders(cli, run);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);

@@ -18,7 +18,7 @@ void spore_plan_report_lines(SporeCli *cli, const SporeWorld *world, gboolean me
 /* The models, files and libraries of the scene. needs: of SporeAssetNeed. */
 void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs);
 /* Rows of left_out: files that a run does not read. */
-void spore_plan_report_files_left_out(SporeCli *cli, const GArray *needs);
+void spore_plan_report_files_left_out(SporeCli *cli, SporeDocument *document, const GArray *needs);
 /* Measures the scene beside itself with nothing left out, in SPORE_PRUNING_STEPS steps from time 0. *unpruned: of the
  * caller, who frees it. FALSE with a GError where it cannot be made. Where it was cancelled, nothing is measured. */
 gboolean spore_plan_measure_pruning(SporeRun *run, SporePruning *pruning, SporeSimulation **unpruned, GError **error);

@@ -26,8 +26,8 @@ static void add_uses(SporeObject *object, GHashTable *uses) {
   for (guint i = 0; i < spore_object_child_count(object); i++) add_uses(spore_object_child(object, i), uses);
 }
 
-static gsize bytes_of(SporeDocument *document, SporeObject *asset) {
-  g_autoptr(GBytes) content = spore_document_read_asset(document, spore_object_text(asset, "file"), NULL);
+static gsize bytes_of(SporeDocument *document, const char *file) {
+  g_autoptr(GBytes) content = spore_document_read_asset(document, file, NULL);
   return content ? g_bytes_get_size(content) : 0;
 }
 
@@ -39,8 +39,38 @@ GArray *spore_document_asset_needs(SporeDocument *document) {
   for (guint i = 0; i < spore_object_child_count(assets); i++) {
     SporeAssetNeed need = {.asset = spore_object_child(assets, i)};
     need.use = (SporeAssetUse)GPOINTER_TO_INT(g_hash_table_lookup(uses, need.asset));
-    need.bytes = bytes_of(document, need.asset);
+    need.bytes = bytes_of(document, spore_object_text(need.asset, "file"));
     g_array_append_val(needs, need);
+  }
+  return needs;
+}
+
+static void clear_texture(gpointer data) { g_ptr_array_unref(((SporeTextureNeed *)data)->bodies); }
+
+static void add_texture(SporeDocument *document, SporeObject *body, const char *file, GArray *needs) {
+  for (guint i = 0; i < needs->len; i++) {
+    SporeTextureNeed *known = &g_array_index(needs, SporeTextureNeed, i);
+    if (strcmp(known->file, file) != 0) continue;
+    if (!g_ptr_array_find(known->bodies, body, NULL)) g_ptr_array_add(known->bodies, body);
+    return;
+  }
+  SporeTextureNeed need = {file, bytes_of(document, file), g_ptr_array_new()};
+  g_ptr_array_add(need.bodies, body);
+  g_array_append_val(needs, need);
+}
+
+GArray *spore_document_texture_needs(SporeDocument *document) {
+  static const char *const files[] = {"texture", "texture_places"};
+  GArray *needs = g_array_new(FALSE, TRUE, sizeof(SporeTextureNeed));
+  g_array_set_clear_func(needs, clear_texture);
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    const SporeObject *visual = spore_object_child_of(body, "visual");
+    for (gsize k = 0; visual && k < G_N_ELEMENTS(files); k++) {
+      const char *file = spore_object_text(visual, files[k]);
+      if (file) add_texture(document, body, file, needs);
+    }
   }
   return needs;
 }

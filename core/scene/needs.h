@@ -24,6 +24,17 @@ typedef struct SporeAssetNeed {
 /* One SporeAssetNeed an asset, in the document's order; g_array_unref. */
 GArray *spore_document_asset_needs(SporeDocument *document);
 
+/* A file of textures (core/scene/texture.h): a picture, or the places of a mesh in one. It is drawn alone: a run reads
+ * none. */
+typedef struct SporeTextureNeed {
+  const char *file;  /* borrowed until the next change of the document */
+  gsize bytes;       /* 0: the file cannot be read */
+  GPtrArray *bodies; /* of SporeObject *, that wear it; at least one */
+} SporeTextureNeed;
+
+/* One SporeTextureNeed a file, in the order of the bodies; g_array_unref. */
+GArray *spore_document_texture_needs(SporeDocument *document);
+
 /* The names of all files that the document's objects name: a set of texts, borrowed until the next change;
  * g_hash_table_unref. */
 GHashTable *spore_document_files(const SporeDocument *document);

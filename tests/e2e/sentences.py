@@ -145,6 +145,7 @@ def through(step, port):
 
 
 GOOD = scene(floor(), stone())
+WORN = scene(stone(STONE, BALL, '<visual mesh="cube" texture="a" texture_places="a"/>'))
 HINGES = dict(hinge="0.06 0 0", axis="0 0 1")
 JAWS = [body(name, BALL, role="active", position="1 0 0") for name in ("left", "right")]
 
@@ -336,7 +337,7 @@ CHECK = [
      STALE, generated('source_hash="{cube}"')),
     ("\"%s\" has places in a texture, and no texture", ["name a texture, or remove texture_places"],
      scene(stone(STONE, BALL, '<visual mesh="cube" texture_places="a"/>')),
-     scene(stone(STONE, BALL, '<visual mesh="cube" texture="a" texture_places="a"/>'))),
+     WORN),
     ("nothing uses the %s \"%s\"", ["remove it, or name it in a body"],
      scene(floor(), stone(), assets=ASSETS + CELLS), GOOD),
 
@@ -561,6 +562,8 @@ PLAN = [
     ("left out: %s (%s): saves %.1f kB\n", ["sources: a run reads what was generated from them"],
      scene(body("organ", SOFT), assets=MADE), generated("")),
     ("left out: %s (%s): saves %.1f kB\n", ["nothing names them"], scene(stone(), assets=ASSETS + CELLS), GOOD),
+    ("left out: %s (%s): saves %.1f kB\n", ["textures: a run draws nothing"], WORN, GOOD),
+    ("texture: %s (%.1f kB), of %s\n", [], WORN, GOOD),
     ("%s: contacts that its step does not resolve are met in a few substeps, or are implicit\n", [], scene(floor(), stone(FLUID, '<collision/>')), ALONE),
     ("%s: %s moves it in steps that do not resolve its contacts\n", [], scene(floor(), stone(), solver=VERLET), GOOD),
     ("%s: %s moves it also in steps in which spheres are within their margins, %.3g m apart at most\n", [],

@@ -402,6 +402,13 @@ def import_keeps_the_picture_of_a_mesh():
     assert visuals[0].get("colour") == "1 1 1" and visuals[0].get("texture_places") != visuals[1].get("texture_places")
     says = lambda: " ".join(d["message"] for d in report("check", "worn/a.spore")["diagnostics"])
     assert "texture" not in says() and "picture" not in says(), says()
+    answer = report("plan", "worn/a.spore")
+    uses = {texture["file"]: texture for texture in answer["textures"]}
+    assert len(uses) == 3 and uses[visuals[0].get("texture")] == {"file": visuals[0].get("texture"), "bytes": len(picture), "bodies": ["worn", visuals[1].get("mesh")]}, uses
+    left, = [left for left in answer["left_out"] if "texture" in left["reason"]]
+    assert left["what"] == "3 files" and left["bytes"] == sum(texture["bytes"] for texture in uses.values()), left
+    left = report("export", "worn/a.spore", "--format", "runtime", "-o", "worn/a.runtime")["left_out"]
+    assert all(any(name in sentence for sentence in left) for name in uses), left
     places = WORK / "worn" / visuals[0].get("texture_places")
     places.write_text("\n".join(places.read_text().splitlines()[:-1]))
     assert "expected exactly" in says()
@@ -1256,6 +1263,7 @@ def plan_tells_files_apart():
     answer = report("plan", file("soft/spare.spore", text.replace("</assets>", '<mesh name="spare" file="spare.off"/></assets>')))
     uses = {asset["name"]: asset["use"] for asset in answer["assets"]}
     assert uses["spare"] == "unused" and "simulated" in uses.values(), uses
+    assert not answer["textures"] and not any("texture" in left["reason"] for left in answer["left_out"]), answer
     spare = [left for left in answer["left_out"] if left.get("bytes") == 10]
     assert spare and spare[0]["what"] == "1 file", answer["left_out"]
 

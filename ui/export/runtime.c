@@ -3,7 +3,17 @@
 
 #include "core/base/memory.h"
 #include "core/scene/compile_runtime.h"
+#include "core/scene/needs.h"
 #include "ui/export/private.h"
+
+static void leave_textures(SporeExport *export) {
+  g_autoptr(GArray) needs = spore_document_texture_needs(export->document);
+  for (guint i = 0; i < needs->len; i++) {
+    const SporeTextureNeed *need = &g_array_index(needs, SporeTextureNeed, i);
+    spore_export_leave_out(
+        export, g_strdup_printf(_("%s: %zu bytes; a texture, and the file draws none"), need->file, need->bytes));
+  }
+}
 
 gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **error) {
   g_autoptr(GPtrArray) undrawn = g_ptr_array_new_with_free_func(g_free);
@@ -15,6 +25,7 @@ gpointer spore_export_format_runtime(SporeExport *export, gsize *size, GError **
                                               (const char *)undrawn->pdata[i]));
   spore_export_leave_out(
       export, g_strdup(_("comments, metadata, settings of generators, colours and names of tissues, unused assets")));
+  leave_textures(export);
   return content;
 }
 
