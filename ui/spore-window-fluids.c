@@ -12,6 +12,8 @@ static const char *doc_of_heater(const SporeObjectType *type, guint end) {
   return _("the bipolar instrument, or beside it.");
 }
 
+static const char *doc_of_tube(const SporeObjectType *type, guint end) { return _("the suction tube, or beside it."); }
+
 static SporeObject *add_to_organ(SporeDocument *document, const char *name, const SporeLinkEnd *ends, guint clicks,
                                  GError **error) {
   const SporeFluidKind *kind = spore_fluid_find(name);
@@ -20,8 +22,8 @@ static SporeObject *add_to_organ(SporeDocument *document, const char *name, cons
   return NULL;
 }
 
-static SporeObject *add_to_heater(SporeDocument *document, const char *name, const SporeLinkEnd *ends, guint clicks,
-                                  GError **error) {
+static SporeObject *add_to_tool(SporeDocument *document, const char *name, const SporeLinkEnd *ends, guint clicks,
+                                GError **error) {
   SporeVec3 place = clicks ? ends[0].place : (SporeVec3){0, 0, 0};
   return spore_edit_add_fluid(document, spore_fluid_find(name), NULL, NULL, place, error);
 }
@@ -36,17 +38,30 @@ static const SporePickKind organ_pick = {
 static const SporePickKind heater_pick = {
     .count = count,
     .doc = doc_of_heater,
-    .add = add_to_heater,
+    .add = add_to_tool,
     .first = N_("%s, click %u of %u: %s Enter takes the first; Escape ends"),
     .anywhere = TRUE,
 };
+
+static const SporePickKind tube_pick = {
+    .count = count,
+    .doc = doc_of_tube,
+    .add = add_to_tool,
+    .first = N_("%s, click %u of %u: %s Enter takes the first; Escape ends"),
+    .anywhere = TRUE,
+};
+
+static const SporePickKind *pick_of(SporeFluidMouth mouth) {
+  if (mouth == SPORE_MOUTH_TUBE) return &tube_pick;
+  return mouth == SPORE_MOUTH_HEATER ? &heater_pick : &organ_pick;
+}
 
 static void act_add_fluid(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   const SporeFluidKind *kind = spore_fluid_find(g_variant_get_string(parameter, NULL));
   const SporeObjectType *effects = spore_object_type_child(spore_schema_root(self->schema), "effects");
   if (!kind) return;
-  spore_window_begin_pick(self, (SporePickDraft){.kind = kind->mouth == SPORE_MOUTH_HEATER ? &heater_pick : &organ_pick,
+  spore_window_begin_pick(self, (SporePickDraft){.kind = pick_of(kind->mouth),
                                                  .type = spore_object_type_child(effects, "emitter"),
                                                  .name = kind->name,
                                                  .label = kind->label});

@@ -168,6 +168,10 @@ static char *draft_hint(SporeWindow *self) {
 static const char *leading_hint(SporeWindow *self) {
   const SporeObject *led = spore_viewport_get_led(SPORE_VIEWPORT(self->viewport));
   if (!led || !spore_player_get_session(self->player)) return NULL;
+  if (spore_hand_pours(spore_editor_document_get(self->document), led))
+    return _(
+        "Drag leads it, Shift+drag turns it; right button or C draws away, Ctrl+right button or O pours, L lets go; "
+        "N, P: another one");
   return spore_hand_latches(spore_editor_document_get(self->document), led)
              ? _("Drag leads it, Shift+drag turns it; right button or C closes it, Ctrl+right button or O opens it; N, "
                  "P: "

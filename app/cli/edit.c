@@ -368,7 +368,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       {"instrument", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.instrument,
        N_("Add an instrument that the mouse moves: KIND, KIND:NAME, KIND@X,Y,Z (where it enters, m) or "
           "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
-          "bag, endoscope, endoscope_30 (may be repeated)"),
+          "irrigator, bag, endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
       {"mirror", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.mirror,
        N_("Add a mirrored copy of an organ, across that axis in the middle of the scene, with what ties it to the "
@@ -384,7 +384,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Add a fluid at a place of an organ, m, after its instruments: KIND@X,Y,Z or KIND:NAME@X,Y,Z; bleeding, "
           "wound (bleeds from a "
           "cut until it is coagulated), pool (poured there), steam, coagulation (steam of the bipolar instrument that "
-          "is nearest) "
+          "is nearest), irrigation (water out of the nearest suction tube, while its second button is down) "
           "(may be repeated)"),
        "KIND@X,Y,Z"},
       {"port", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.port,

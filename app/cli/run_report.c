@@ -175,6 +175,31 @@ static void report_tools(SporeCli *cli, const SporeWorld *world) {
   spore_cli_close_array(cli);
 }
 
+#define MILLILITRES 1e6 /* in a cubic metre */
+
+/* Of each fluid, how much is in the scene, and how much came and went. */
+static void report_fluids(SporeCli *cli, const SporeWorld *world) {
+  gboolean any = FALSE;
+  for (guint32 body = 0; body < spore_world_body_count(world); body++) {
+    const SporeModel *model = spore_world_body_model(world, body);
+    if (!model || !model->type->particles) continue;
+    SporeBodyMarks marks = spore_world_body_marks(world, body);
+    double each = MILLILITRES * model->particle_volume;
+    if (!any) spore_cli_open_array(cli, "fluids");
+    any = TRUE;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", spore_world_body_name(world, body));
+    spore_cli_number(cli, "present_ml", each * (double)spore_world_particle_count(world, body));
+    spore_cli_number(cli, "poured_ml", each * (double)marks.poured);
+    spore_cli_number(cli, "sucked_ml", each * (double)marks.sucked);
+    spore_cli_close(cli);
+    if (marks.poured + marks.sucked > 0)
+      spore_cli_say(cli, _("%s: %.3g ml came out, %.3g ml were sucked away\n"), spore_world_body_name(world, body),
+                    each * (double)marks.poured, each * (double)marks.sucked);
+  }
+  if (any) spore_cli_close_array(cli);
+}
+
 static void report_level(SporeCli *cli, const char *body, const SporeLodState *state) {
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", body);
@@ -359,6 +384,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_local_error(cli, world, &result->local_error);
   report_links(cli, world);
   report_tools(cli, world);
+  report_fluids(cli, world);
   report_levels(cli, world);
   report_lines(cli, world);
   spore_run_report_exercise(cli, exercise);

@@ -8,6 +8,7 @@
 #include "core/author/fluid_place.h"
 #include "core/integrate/integrator.h"
 #include "core/io/mesh_import.h"
+#include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
 #include "core/sim/solve/step_limit.h"
 
@@ -42,17 +43,20 @@ static double radius_of(const Addition *addition) {
   return addition->spacing * cbrt(addition->particles * 3 / (4 * G_PI));
 }
 
-/* The bipolar instrument whose point is nearest to the place. */
-static SporeObject *nearest_heater(SporeDocument *document, SporeVec3 place, SporeVec3 *point) {
+/* The body of a tool of that kind: the one whose point is nearest to the place, or, where there is a body, that body.
+ */
+static SporeObject *nearest_holder(SporeDocument *document, const char *element, const SporeObject *body,
+                                   SporeVec3 place, SporeVec3 *point) {
   const SporeObject *tools = spore_document_section(document, "tools");
   SporeObject *nearest = NULL;
   for (guint i = 0; i < spore_object_child_count(tools); i++) {
     SporeObject *tool = spore_object_child(tools, i);
-    if (!g_str_equal(spore_object_type(tool)->element, "bipolar") || !spore_object_reference(tool, "body")) continue;
+    SporeObject *holder = spore_object_reference(tool, "body");
+    if (!g_str_equal(spore_object_type(tool)->element, element) || !holder || (body && body != holder)) continue;
     int property = spore_parameter_find(spore_object_type(tool)->table, "point");
     SporeVec3 at = spore_vec3_load(spore_object_value(tool, (guint)property)->number);
     if (nearest && spore_vec3_distance(at, place) >= spore_vec3_distance(*point, place)) continue;
-    nearest = spore_object_reference(tool, "body");
+    nearest = holder;
     *point = at;
   }
   return nearest;
@@ -93,12 +97,33 @@ static gboolean place_on_organ(Addition *addition, SporeObject *organ, SporeVec3
 }
 
 static gboolean place_in_heater(Addition *addition, SporeVec3 at, GError **error) {
-  addition->source = nearest_heater(addition->document, at, &addition->mouth);
+  addition->source = nearest_holder(addition->document, "bipolar", NULL, at, &addition->mouth);
   if (!addition->source) return refuse(addition, _("nothing here coagulates; add bipolar forceps first"), error);
   addition->spacing = SPACING;
   addition->direction = (SporeVec3){0, 1, 0};
   addition->middle = addition->mouth;
   return TRUE;
+}
+
+/* Out of the end of the tube, clear of what is felt of the tube. A shaft comes from +y of its body. */
+static gboolean place_in_tube(Addition *addition, const SporeObject *body, SporeVec3 at, GError **error) {
+  SporeSurfacePlace place = {0};
+  place.body = nearest_holder(addition->document, "suction", body, at, &place.at);
+  if (!place.body) return refuse(addition, _("nothing here draws fluid away; add a suction tube first"), error);
+  place.outward = spore_quat_rotate(spore_body_pose(place.body).orientation, (SporeVec3){0, -1, 0});
+  addition->source = place.body;
+  addition->spacing = SPACING;
+  addition->direction = place.outward;
+  addition->mouth = spore_vec3_add_scaled(
+      place.at, spore_surface_clear(addition->document, &place, 0.5 * addition->spacing), place.outward);
+  addition->middle = addition->mouth;
+  return TRUE;
+}
+
+static gboolean find_place(Addition *addition, SporeObject *organ, SporeVec3 at, GError **error) {
+  if (addition->kind->mouth == SPORE_MOUTH_HEATER) return place_in_heater(addition, at, error);
+  if (addition->kind->mouth == SPORE_MOUTH_TUBE) return place_in_tube(addition, organ, at, error);
+  return place_on_organ(addition, organ, at, error);
 }
 
 /* The body. */
@@ -244,9 +269,7 @@ SporeObject *spore_edit_add_fluid(SporeDocument *document, const SporeFluidKind 
                                   SporeObject *organ, SporeVec3 place, GError **error) {
   g_autofree char *label = g_strdup_printf(_("Add %s"), _(kind->label));
   Addition addition = {.document = document, .kind = kind, .name = name, .particles = kind->particles};
-  gboolean placed = kind->mouth == SPORE_MOUTH_HEATER ? place_in_heater(&addition, place, error)
-                                                      : place_on_organ(&addition, organ, place, error);
-  if (!placed) return NULL;
+  if (!find_place(&addition, organ, place, error)) return NULL;
   spore_document_begin(document, label);
   SporeObject *added = add(&addition, error);
   return spore_edit_finish(document, added != NULL) ? added : NULL;

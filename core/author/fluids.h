@@ -1,5 +1,5 @@
-/* The library of fluids: what bleeds, what is poured, what rises as steam. One table, from which the bodies, the
- * emitter, the menu of the editor and the help of the command line follow. */
+/* The library of fluids: what bleeds, what is poured, what rinses, what rises as steam. One table, from which the
+ * bodies, the emitter, the menu of the editor and the help of the command line follow. */
 #ifndef SPORE_AUTHOR_FLUIDS_H
 #define SPORE_AUTHOR_FLUIDS_H
 
@@ -10,7 +10,8 @@ typedef enum SporeFluidMouth {
   SPORE_MOUTH_NONE,   /* no emitter: the fluid lies there from the start */
   SPORE_MOUTH_ORGAN,  /* the organ at the place */
   SPORE_MOUTH_TISSUE, /* the same, which has to be one that can be cut */
-  SPORE_MOUTH_HEATER  /* the bipolar instrument that is nearest to the place */
+  SPORE_MOUTH_HEATER, /* the bipolar instrument that is nearest to the place */
+  SPORE_MOUTH_TUBE    /* the suction tube, in the same way; it comes out along the shaft */
 } SporeFluidMouth;
 
 typedef struct SporeFluidKind {

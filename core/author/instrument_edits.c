@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/author/edits.h"
+#include "core/author/fluid_edits.h"
 #include "core/author/instrument_bag.h"
 #include "core/io/mesh_import.h"
 #include "core/math/quat.h"
@@ -252,6 +253,13 @@ static gboolean add_tool(const Addition *addition, SporeObject *body, GError **e
          set_all(addition, tool, addition->instrument->settings, error) && add_others(addition, tool, error);
 }
 
+/* What comes out of it, named after it. */
+static gboolean add_fluid(const Addition *addition, SporeObject *body, GError **error) {
+  const SporeFluidKind *kind = spore_fluid_find(addition->instrument->fluid);
+  g_autofree char *name = g_strdup_printf("%s_%s", addition->name, kind->name);
+  return spore_edit_add_fluid(addition->document, kind, name, body, addition->pose.position, error) != NULL;
+}
+
 /* How an optic looks aside from its shaft to what the endoscope points at. */
 static gboolean set_look(const Addition *addition, SporeObject *camera, SporeVec3 ahead, GError **error) {
   double look = addition->instrument->look_rad;
@@ -309,7 +317,8 @@ static SporeObject *add(Addition *addition, const SporeInstrumentPlaces *places,
   if (!body) return NULL;
   addition->pose = spore_body_pose(body); /* as it was rounded */
   gboolean done =
-      add_tool(addition, body, error) && (instrument->head != SPORE_HEAD_LENS || add_camera(addition, body, error)) &&
+      add_tool(addition, body, error) && (!instrument->fluid || add_fluid(addition, body, error)) &&
+      (instrument->head != SPORE_HEAD_LENS || add_camera(addition, body, error)) &&
       (instrument->head != SPORE_HEAD_HOOP ||
        spore_instrument_add_film(addition->document, instrument, body, addition->pose, error)) &&
       (instrument->head == SPORE_HEAD_ARC || !places->entry || add_port(addition, body, *places->entry, error));

@@ -7,6 +7,8 @@ static const char *const pressing[] = {"trigger", "button", "opening", "1.2", "t
 static const char *const cutting[] = {"trigger", "button", "opening", "1", NULL};
 static const char *const heating[] = {"radius", "0.004", NULL};
 static const char *const sucking[] = {"trigger", "button", NULL};
+/* Such tubes have holes at their sides, too. */
+static const char *const rinsing[] = {"trigger", "button", "radius", "0.006", NULL};
 
 const SporeInstrumentKind spore_instruments[] = {
     {"probe", N_("Probe"), N_("presses and stirs"), "probe", SPORE_HEAD_BALL, .radius = 0.0035, .head_radius = 0.005,
@@ -21,6 +23,8 @@ const SporeInstrumentKind spore_instruments[] = {
      .head_length = 0.014, .head_radius = 0.001, .clearance = 0.01, .settings = heating},
     {"suction", N_("Suction"), N_("draws fluid away"), "suction", SPORE_HEAD_MOUTH, .radius = 0.0025, .clearance = 0.01,
      .settings = sucking},
+    {"irrigator", N_("Suction and irrigation"), N_("draws fluid away, and pours water"), "suction", SPORE_HEAD_MOUTH,
+     .radius = 0.0025, .clearance = 0.02, .fluid = "irrigation", .settings = rinsing},
     {"needle", N_("Needle with thread"), N_("stitches"), "needle", SPORE_HEAD_ARC, .radius = 0.0004,
      .head_radius = 0.007, .clearance = 0.01},
     {"bag", N_("Specimen bag"), N_("takes away what was cut off"), "probe", SPORE_HEAD_HOOP, .radius = 0.0035,

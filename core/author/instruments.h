@@ -38,6 +38,7 @@ typedef struct SporeInstrumentKind {
   double head_radius; /* of the ball, of jaws, blades and prongs at the shaft, of the arc, of the mouth of a bag */
   double clearance;   /* from what it works with to what it points at, where there is room */
   double look_rad;    /* between a camera's view and its shaft */
+  const char *fluid;  /* of the library of fluids, what comes out of it; NULL: nothing */
   const char *const *settings; /* of the tool: name, text, ..., NULL; where they differ from their defaults */
 } SporeInstrumentKind;
 

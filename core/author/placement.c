@@ -139,12 +139,26 @@ static gboolean hangs(const SporePlacement *placement, const SporeObject *body) 
   return any;
 }
 
-/* What hangs on an instrument alone goes with it: the film of a bag. */
+/* Whether the body is a fluid that comes out of instruments which move, and is not in the scene before. */
+static gboolean comes_out(const SporePlacement *placement, const SporeObject *body) {
+  const SporeObject *effects = spore_document_section(placement->document, "effects");
+  if (!spore_body_is_kept_back(placement->document, body)) return FALSE;
+  for (guint i = 0; i < spore_object_child_count(effects); i++) {
+    const SporeObject *emitter = spore_object_child(effects, i);
+    SporeObject *source = spore_object_reference(emitter, "source");
+    gboolean moves = source && g_hash_table_contains(placement->moving, source) &&
+                     (SporeRole)spore_object_number(source, "role") == SPORE_ACTIVE;
+    if (spore_object_reference(emitter, "body") == body && !moves) return FALSE;
+  }
+  return TRUE;
+}
+
+/* What hangs on an instrument alone goes with it, the film of a bag, and what comes out of it alone, water. */
 static void add_hanging(SporePlacement *placement) {
   const SporeObject *bodies = spore_document_section(placement->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    if (!g_hash_table_contains(placement->moving, body) && hangs(placement, body))
+    if (!g_hash_table_contains(placement->moving, body) && (hangs(placement, body) || comes_out(placement, body)))
       g_hash_table_add(placement->moving, body);
   }
 }

@@ -111,6 +111,7 @@ typedef struct SporeModel {
   size_t line_room;          /* largest number of control points, where these come and go */
   size_t pair_room;          /* largest number of pairs of blocks in its pattern then, repeated pairs counted */
   double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the block of a frame's angular velocity */
+  double particle_volume;    /* m^3, of a fluid: what each particle stands for; 0 else */
   double buoyancy;           /* part of its weight that the air around it carries; above 1 it rises */
   double stain;              /* 1/s, of a fluid: rate at which what its drops lie on takes on their colour; below 0: at
                                 which they wash such colour off */

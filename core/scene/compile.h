@@ -31,6 +31,9 @@ void spore_input_free(SporeTrack *input);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeSimulation, spore_simulation_free)
 /* Whether the body collides with its model's own spheres: its collision unit names no sphere set. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);
+/* Whether emitters keep back a fluid until it flows, so that nothing of it is there at the start. FALSE for what is no
+ * fluid. */
+gboolean spore_body_is_kept_back(SporeDocument *document, const SporeObject *body);
 /* Where the author puts a body at the start. */
 SporePose spore_body_pose(const SporeObject *body);
 /* Index in the world of the body that the object is or belongs to, or SPORE_NO_BODY. */

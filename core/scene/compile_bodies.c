@@ -252,6 +252,19 @@ gboolean spore_body_has_own_spheres(const SporeObject *body) {
          !spore_object_text(collision, "spheres") && spore_object_type(model)->model->spheres;
 }
 
+#define ALL_OF_IT 0.9 /* of the particles of a fluid: how many there are is known only once the surface is filled */
+
+gboolean spore_body_is_kept_back(SporeDocument *document, const SporeObject *body) {
+  const SporeObject *model = spore_body_model_object(body), *effects = spore_document_section(document, "effects");
+  double kept = 0;
+  if (!model || !spore_object_type(model)->model->particles) return FALSE;
+  for (guint i = 0; i < spore_object_child_count(effects); i++) {
+    const SporeObject *emitter = spore_object_child(effects, i);
+    if (spore_object_reference(emitter, "body") == body) kept += spore_object_number(emitter, "reserve");
+  }
+  return kept > 0 && kept >= ALL_OF_IT * spore_object_number(model, "particles");
+}
+
 SporePose spore_body_pose(const SporeObject *body) {
   SporeBodyFields fields;
   spore_object_fields(body, &fields);

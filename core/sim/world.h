@@ -69,6 +69,7 @@ typedef struct SporeBodyDescription {
 /* How particles of a fluid come into the world while it runs: a wound that bleeds. The fluid has `reserve` of its
  * particles out of the world at time 0. The emitter puts these into the world, and those that suction took away. */
 typedef struct SporeEmitterFields {
+  double flow;     /* m^3/s; above 0, rate and speed follow from this and the mouth: see spore_emitter_parameters */
   double rate;     /* particles a second at most: no particle is put where another one still is */
   double speed;    /* m/s, of a new particle */
   double radius;   /* m, of the mouth */
@@ -282,6 +283,7 @@ typedef struct SporeBodyMarks {
   uint64_t coagulated; /* ties and elements, counted in each step in which they were heated */
   uint64_t pierced;    /* surfaces */
   uint64_t sucked;     /* particles */
+  uint64_t poured;     /* particles that emitters put into the world */
 } SporeBodyMarks;
 SporeBodyMarks spore_world_body_marks(const SporeWorld *world, uint32_t body);
 
@@ -519,6 +521,7 @@ typedef struct SporeSnapshotContact {
 /* What all tools together have done so far; see SporeToolState. */
 typedef struct SporeToolCounts {
   size_t cut, pierced, stitches;
+  double poured; /* m^3: out of emitters with a flow */
 } SporeToolCounts;
 /* Knots of the lines whose control points are inserted and removed; read them by spore_snapshot_knots. */
 typedef struct SporeLines {

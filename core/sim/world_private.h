@@ -41,7 +41,8 @@ struct SporeBody {
   bool altered;              /* cut, torn or coagulated since time 0: the body keeps its level */
   bool frozen;
   SporeBodyEffect effect;
-  double parking_gap; /* m, between particles out of the world; 0: no particle leaves */
+  double parking_gap;  /* m, between particles out of the world; 0: no particle leaves */
+  double parking_lane; /* m: the y of these particles, so that those of two bodies do not meet */
   SporeBodyMethod method;
   SporeHeldBlocks held;
   SporeCollisionUnit collision;

@@ -185,6 +185,7 @@ static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields
   fluid->thermostat = fields->thermostat;
   fluid->drag = fields->drag;
   fluid->base.stain = fields->stain;
+  fluid->base.particle_volume = volume / (double)n;
   fluid->warmth = fields->temperature * fluid->epsilon / mass;
   memcpy(fluid->period, fields->period, sizeof fluid->period);
   fluid->law = spore_lennard_jones_law(fluid->sigma, fluid->epsilon, CUTOFF * fluid->sigma, CORE * fluid->sigma);

@@ -92,6 +92,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
   smoke->base.q_count = smoke->base.q_room += count; /* ages */
   smoke->base.life_s = fields->life;
   smoke->base.buoyancy = fields->buoyancy;
+  smoke->base.particle_volume = volume / (double)count;
   for (size_t i = 0; i < count; i++) smoke->base.block_mass[i] = fields->density * volume / (double)count;
   return &smoke->base;
 }

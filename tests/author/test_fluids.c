@@ -3,6 +3,7 @@
 #include "core/author/fluid_edits.h"
 #include "core/author/fluid_place.h"
 #include "core/author/instrument_edits.h"
+#include "core/author/removal.h"
 #include "core/scene/check.h"
 #include "core/scene/compile.h"
 #include "tests/scene/fixture.h"
@@ -161,6 +162,47 @@ static void test_coagulation(void) {
   fixture_scene_free(&scene);
 }
 
+/* Water comes out of the end of a suction tube along the shaft, of the one that is nearest or of an irrigator, and goes
+ * with it when it is deleted; without a tube it is refused. */
+static void test_irrigation(void) {
+  FixtureScene scene = fixture_scene_new(organs);
+  GError *error = NULL;
+  const SporeFluidKind *kind = spore_fluid_find("irrigation");
+  g_assert_null(spore_edit_add_fluid(scene.document, kind, NULL, NULL, on_organ, &error));
+  fixture_assert_error(error, SPORE_ERROR_INPUT, "add a suction tube first");
+  const SporeVec3 entry = {0.01, 0.3, 0}, other = {0.51, 0.3, 0};
+  const SporeInstrumentPlaces far = {&other, &on_wall}, near = {&entry, &on_organ};
+  spore_edit_add_instrument(scene.document, spore_instrument_find("suction"), "near", near, NULL);
+  spore_edit_add_instrument(scene.document, spore_instrument_find("suction"), "far", far, NULL);
+  g_assert_cmpstr(spore_object_text(add(&scene, "irrigation", on_organ), "source"), ==, "near");
+  spore_document_undo(scene.document);
+  g_autofree char *before = fixture_format(scene.document);
+  SporeObject *body = spore_edit_add_instrument(scene.document, spore_instrument_find("irrigator"), "jet", near, NULL);
+  SporeObject *emitter = spore_document_find(scene.document, "emitter", "jet_irrigation");
+  g_assert_true(spore_object_reference(emitter, "source") == body);
+  g_assert_cmpfloat_with_epsilon(spore_object_vector(emitter, "direction").y, -1, 1e-3);
+  g_assert_cmpfloat(spore_object_vector(emitter, "point").y, <, spore_object_vector(body, "position").y);
+  g_assert_cmpuint(said_of(&scene, "water"), ==, 0);
+  gsize at_start, at_end;
+  run(&scene, "water", 0.05, &at_start, &at_end); /* no button is down */
+  g_assert_cmpuint(at_start + at_end, ==, 0);
+  g_assert_true(spore_document_set_text(scene.document, emitter, "trigger", "always", NULL));
+  run(&scene, "water", 0.1, &at_start, &at_end);
+  double volume = 0.1 * spore_object_number(emitter, "flow"), each = 0.004 * 0.004 * 0.004;
+  g_test_message("%zu drops in 0.1 s", at_end);
+  g_assert_cmpfloat_with_epsilon((double)at_end * each, volume, 0.1 * volume);
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32));
+  guint32 id = spore_object_id(body);
+  g_array_append_val(ids, id);
+  g_assert_true(spore_document_set_text(scene.document, emitter, "trigger", "second_button", NULL));
+  g_assert_true(spore_edit_delete(scene.document, ids, NULL));
+  g_autofree char *after = fixture_format(scene.document);
+  g_assert_null(spore_document_find(scene.document, "body", "water"));
+  g_assert_null(strstr(after, "jet"));
+  g_assert_nonnull(strstr(before, "near"));
+  fixture_scene_free(&scene);
+}
+
 /* A shorter step needs fewer substeps, and one that is short enough none of its own. */
 static void test_substeps(void) {
   static const char *const steps[] = {"0.004", "0.002", "0.0001"};
@@ -185,6 +227,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/fluids/wound", test_wound);
   g_test_add_func("/fluids/pool", test_pool);
   g_test_add_func("/fluids/coagulation", test_coagulation);
+  g_test_add_func("/fluids/irrigation", test_irrigation);
   g_test_add_func("/fluids/substeps", test_substeps);
   return g_test_run();
 }

@@ -1639,6 +1639,38 @@ def a_needle_and_a_suction_tube_of_the_library_work():
 
 
 @check
+def an_irrigator_pours_and_draws_away():
+    """Its second button pours a litre a minute, its first one draws the water away again; the volumes are told apart from the blood's. Water that does not wash moves alike, and water as particles comes as much."""
+    file("rinse/drop.off", shapes.off(*shapes.sphere(radius=0.005)))
+    file("rinse/floor.spheres", "".join(f"{x / 200} 0 {z / 200} 0.004\n" for x in range(-8, 9) for z in range(-8, 9)))
+    scene = file("rinse/rinse.spore", '<spore version="1.0"><solver time_step="0.004"/><assets><mesh name="drop" file="drop.off"/>'
+                 '<spheres name="floor" file="floor.spheres"/></assets><bodies><body name="floor" role="unmovable"><collision spheres="floor"/></body>'
+                 '<body name="blood" position="0.02 0.012 0"><mechanical geometry="drop"><lennard_jones particles="60"/></mechanical>'
+                 '<collision/><fidelity mode="effect"/></body></bodies></spore>\n')
+    report("edit", scene, "--instrument", "irrigator@0,0.2,0@0,0.005,0")
+    assert not report("check", scene)["diagnostics"]
+    refuses("edit", scene, "--set", "effects/irrigator_1_irrigation/flow=-1", says=["expected"])
+    still = (0, 0, 0)
+    paths = {buttons: [(0, still, 0), (0.1, still, 0), (0.101, still, buttons), (0.4, still, buttons)] for buttons in (0, 1, 2)}
+    paths["after"] = paths[2] + [(0.401, still, 0), (0.5, (0, -0.018, 0), 1), (1.2, (0, -0.018, 0), 1)]
+    for buttons, path in paths.items():
+        track = led(scene, "irrigator_1", path)
+        done = report("run", scene, "--input", track, "--time", path[-1][0])
+        water, blood = {one["name"]: one for one in done["fluids"]}["water"], done["fluids"][0]
+        poured = 0 if buttons in (0, 1) else 0.3 * 1000 / 60
+        assert abs(water["poured_ml"] - poured) < 0.13 and abs(water["present_ml"] + water["sucked_ml"] - water["poured_ml"]) < 1e-9, (buttons, water)
+        assert (water["sucked_ml"] > 0.1) == (buttons == "after"), (buttons, water)
+        assert blood["name"] == "blood" and blood["poured_ml"] == 0, blood
+        assert abs(blood["present_ml"] + blood["sucked_ml"] - 0.52) < 0.06, blood
+    plain = report("run", scene, "--input", track, "--time", 0.3)
+    dry = report("run", scene, "--input", track, "--time", 0.3, "--set", "bodies/water/mechanical/lennard_jones/stain=0")
+    assert dry["state_hash"] == plain["state_hash"] and plain["fluids"] == dry["fluids"]
+    felt = report("run", scene, "--input", track, "--time", 0.22, "--dt", 0.002, "--set", "bodies/water/fidelity/mode=physical")
+    assert abs(felt["fluids"][1]["poured_ml"] - 0.12 * 1000 / 60) < 0.13, felt["fluids"]
+    assert {one["name"]: one.get("moved_by") for one in felt["bodies"]}["water"] == "physics"
+
+
+@check
 @alike
 def a_bag_of_the_library_takes_what_falls_into_it():
     """A stone above the mouth of a bag of the library falls into the bag and lies in it; one beside falls past."""

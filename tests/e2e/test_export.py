@@ -69,6 +69,14 @@ def settings_and_input_come_along(*_):
     options = ["--set", "environment/gravity=0 -5 0", "--dt", "0.002", "--integrator", "bdf2", "--input", SCENES / "plate4-deformed-ovary" / "plate4-deformed-ovary.track"]
     file, _ = export(scene, *options)
     assert state(PLAYER, file, "--steps", STEPS)["state_hash"] == state(SPORE, "run", scene, "-n", STEPS, *options)["state_hash"]
+    shutil.copytree(SCENES / "minimal", FOLDER / "minimal")
+    rinsed = shutil.copy(SCENES / "minimal.spore", FOLDER / "minimal.spore")
+    run(SPORE, "edit", rinsed, "--instrument", "irrigator:jet")
+    run(SPORE, "edit", rinsed, "--set", "effects/jet_irrigation/trigger=always", "--set", "solver/time_step=0.004")
+    washed, _ = export(rinsed)
+    wet = state(SPORE, "run", rinsed, "-n", STEPS)
+    assert state(PLAYER, washed, "--steps", STEPS)["state_hash"] == wet["state_hash"] and wet["fluids"][0]["poured_ml"] > 2
+    washed.unlink()
     names = state(PLAYER, file, "--steps", 0)
     assert "ovary_right" in names["bodies"] and any(visual["body"] == "ovary_right" and visual["vertices"] > 100 for visual in names["visuals"])
 

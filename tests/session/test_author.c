@@ -812,6 +812,31 @@ static void test_angle_text(void) {
   }
 }
 
+/* Flows of the file, m^3/s, and of the window, ml/min; l/min may be typed. */
+static void test_flow_text(void) {
+  static const struct {
+    const char *file, *shown;
+  } flows[] = {
+      {"1.667e-5", "1000"}, {"0.000025", "1500"}, {"2e-6", "120"}, {"0", "0"}, {"1.6666666666666667e-05", "1000"}};
+  for (guint i = 0; i < G_N_ELEMENTS(flows); i++) {
+    g_autofree char *shown = spore_number_text_flow(flows[i].file);
+    g_assert_cmpstr(shown, ==, flows[i].shown);
+  }
+  static const struct {
+    const char *typed, *left;
+    int digits;
+  } typed[] = {{"800", "800", 0}, {"800 ml/min", "800", 0}, {"1.5 l/min ", "1.5", 3}};
+  for (guint i = 0; i < G_N_ELEMENTS(typed); i++) {
+    g_autofree char *text = g_strdup(typed[i].typed);
+    g_assert_cmpint(spore_number_text_cut_flow(text), ==, typed[i].digits);
+    g_assert_cmpstr(text, ==, typed[i].left);
+    g_autofree char *millilitres = spore_number_text_shift(text, typed[i].digits);
+    g_autofree char *file = spore_number_text_from_flow(millilitres), *shown = spore_number_text_flow(file);
+    g_assert_cmpstr(shown, ==, millilitres);
+    g_assert_cmpfloat_with_epsilon(g_ascii_strtod(file, NULL) * 60e6, g_ascii_strtod(millilitres, NULL), 1e-6);
+  }
+}
+
 /* What was going on while the main loop did not come round is told: the work whose result was taken in, and by the
  * longest. */
 static gboolean hold_loop(gpointer title) {
@@ -886,6 +911,7 @@ int main(int argc, char **argv) {
   }
   g_test_add_func("/author/number-text", test_number_text);
   g_test_add_func("/author/angle-text", test_angle_text);
+  g_test_add_func("/author/flow-text", test_flow_text);
   g_test_add_func("/author/loop-gaps", test_loop_gaps);
   g_test_add_func("/author/length-text", test_length_text);
   int status = g_test_run();

@@ -541,6 +541,24 @@ static void test_blood_stains(void) {
   }
 }
 
+/* Blood that is put away after .2 s, and what is left of its stain after .4 s more; *hash: of the state then. */
+static double stain_left(Rig *rig, SporeDevice *device, uint64_t *hash) {
+  SporeWorld *world = rig_build(rig);
+  if (device) spore_world_set_device(world, 2, device);
+  rig_run(world, 50);
+  double before = spore_world_stained(world, 1);
+  size_t count = 3 * spore_world_body_model(world, 0)->node_count;
+  g_autofree double *q = g_memdup2(spore_world_q(world, 0), count * sizeof *q), *v = g_new0(double, count);
+  for (size_t i = 0; i < count; i++) q[i] += 1;
+  spore_world_set_state(world, 0, q, v);
+  g_assert_cmpfloat(before, >, 2e-3);
+  rig_run(world, 100);
+  double left = spore_world_stained(world, 1) / before;
+  *hash = spore_world_hash(world);
+  rig_free(rig);
+  return left;
+}
+
 /* Water over a stained floor. */
 static void add_water(Rig *rig) {
   SporeTriangleMesh cube;
@@ -554,23 +572,62 @@ static void add_water(Rig *rig) {
 /* What washes takes the stain off, where the blood has gone. */
 static void test_water_washes(void) {
   double left[2];
-  for (int washed = 0; washed < 2; washed++) {
-    Rig *rig = pour(4e-3, washed ? add_water : NULL);
-    SporeWorld *world = rig_build(rig);
-    rig_run(world, 50);
-    double before = spore_world_stained(world, 1);
-    size_t count = 3 * spore_world_body_model(world, 0)->node_count;
-    g_autofree double *q = g_memdup2(spore_world_q(world, 0), count * sizeof *q), *v = g_new0(double, count);
-    for (size_t i = 0; i < count; i++) q[i] += 1;
-    spore_world_set_state(world, 0, q, v);
-    g_assert_cmpfloat(before, >, 2e-3);
-    rig_run(world, 100);
-    left[washed] = spore_world_stained(world, 1) / before;
-    rig_free(rig);
-  }
+  uint64_t hash;
+  for (int washed = 0; washed < 2; washed++)
+    left[washed] = stain_left(pour(4e-3, washed ? add_water : NULL), NULL, &hash);
   g_test_message("%.2f of the stain is left without water, %.2f with", left[0], left[1]);
   g_assert_cmpfloat(left[0], ==, 1);
   g_assert_cmpfloat(left[1], <, 0.6);
+}
+
+/* An irrigator over the floor, which pours while the second button is down. */
+typedef struct Pedal {
+  SporeDevice base;
+  uint32_t buttons;
+} Pedal;
+
+static bool press(SporeDevice *device, double time_s, const SporeDeviceCommand *command, SporeDeviceState *state) {
+  (void)command;
+  *state = (SporeDeviceState){.position = {0, 0.06, 0}, .orientation = {1, 0, 0, 0}};
+  state->buttons = time_s > 0.199 ? ((const Pedal *)device)->buttons : 0;
+  return true;
+}
+
+static Rig *irrigated(double stain) {
+  static SporeEmitterDescription jet;
+  static const SporeVec3 tip = {0, 0.06, 0};
+  Rig *rig = pour(4e-3, NULL);
+  SporeTriangleMesh cube;
+  rig_active(rig, "tube", rig_sphere(rig, 0.0005))->pose.position = tip;
+  shape_box(&cube, spore_vec3(0, 0.1, 0), spore_vec3(CUBE, CUBE, CUBE));
+  SporeModel *model = rig_fluid_model(&cube, DROPS, "stain", stain, NULL);
+  rig_passive(rig, "water", model, own_spheres(rig, model))->effect = true;
+  jet = (SporeEmitterDescription){.name = "jet", .body = 3, .source = 2, .point = tip, .direction = {0, -1, 0}};
+  spore_parameters_set_initial(&spore_emitter_parameters, &jet.fields);
+  jet.fields.flow = 1.667e-5, jet.fields.radius = 0.00175, jet.fields.trigger = SPORE_FLOW_SECOND_BUTTON;
+  jet.fields.reserve = (int64_t)model->node_count;
+  rig->description.emitters = &jet;
+  rig->description.emitter_count = 1;
+  return rig;
+}
+
+/* The stain goes while the button is down, and with what washes; the motion is the same whether it washes or not. */
+static void test_irrigation_washes(void) {
+  static const SporeDeviceType type = {.name = "pedal", .exchange = press};
+  static const struct {
+    uint32_t buttons;
+    double stain;
+  } cases[] = {{0, -20}, {1, -20}, {2, -20}, {2, 0}};
+  double left[G_N_ELEMENTS(cases)];
+  uint64_t hash[G_N_ELEMENTS(cases)];
+  for (unsigned c = 0; c < G_N_ELEMENTS(cases); c++) {
+    Pedal pedal = {{&type}, cases[c].buttons};
+    left[c] = stain_left(irrigated(cases[c].stain), &pedal.base, &hash[c]);
+    g_test_message("buttons %u, stain %g: %.2f of the stain is left", cases[c].buttons, cases[c].stain, left[c]);
+    g_assert_true(cases[c].buttons == 2 && cases[c].stain < 0 ? left[c] < 0.7 : left[c] == 1);
+  }
+  g_assert_cmphex(hash[2], ==, hash[3]);
+  g_assert_cmphex(hash[0], !=, hash[2]);
 }
 
 static void test_dent(void) {
@@ -600,6 +657,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/sleeping-pool-is-sucked", test_sleeping_pool_is_sucked);
   g_test_add_func("/stability/effect/blood-stains", test_blood_stains);
   g_test_add_func("/stability/effect/water-washes", test_water_washes);
+  g_test_add_func("/stability/effect/irrigation-washes", test_irrigation_washes);
   g_test_add_func("/stability/effect/dent", test_dent);
   return g_test_run();
 }

@@ -6,6 +6,7 @@
 #include "tests/stability/rig.h"
 
 #define PARTICLES 200
+#define DRAG 5.0 /* 1/s */
 
 /* A drop of blood, weightless, about the origin; `tools` and `emitters` may be 0. */
 static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
@@ -15,7 +16,7 @@ static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
   rig->description.gravity = spore_vec3(0, 0, 0);
   SporeTriangleMesh box;
   shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
-  rig_passive(rig, "blood", rig_fluid_model(&box, PARTICLES, "drag", 5.0, NULL), NULL);
+  rig_passive(rig, "blood", rig_fluid_model(&box, PARTICLES, "drag", DRAG, NULL), NULL);
   rig_active(rig, "sucker", rig_sphere(rig, 0.0005))->pose.position = spore_vec3(0, 0.02, 0);
   if (tools > 0) {
     SporeSuctionFields *fields = rig_tool_fields(rig_tool(rig, &spore_suction, "suction", 1));
@@ -197,6 +198,111 @@ static void test_mouth_turns(void) {
   }
 }
 
+#define FLOW 2e-6   /* m^3/s */
+#define BORE 0.0008 /* m */
+
+/* A device that stays where it is, with those buttons down for .2 s from .1 s on. */
+typedef struct Pedal {
+  SporeDevice base;
+  uint32_t buttons;
+} Pedal;
+
+static bool press(SporeDevice *device, double time_s, const SporeDeviceCommand *command, SporeDeviceState *state) {
+  (void)command;
+  uint32_t buttons = ((const Pedal *)device)->buttons;
+  *state = (SporeDeviceState){.position = {0, 0.02, 0}, .orientation = {1, 0, 0, 0}};
+  state->buttons = time_s > 0.0999 && time_s < 0.2999 ? buttons : 0;
+  return true;
+}
+static const SporeDeviceType pedal_type = {.name = "pedal", .exchange = press};
+
+/* An instrument that sucks while its first button is down, and pours downward while the second one is. */
+static Rig *irrigator(bool effect) {
+  Rig *rig = drop(1, 1, 0, 1000);
+  SporeEmitterDescription jet = rig->description.emitters[0];
+  SporeSuctionFields *suction = rig_tool_fields(&g_array_index(rig->tools, SporeToolDescription, 0));
+  SporeBodyDescription *water = &g_array_index(rig->bodies, SporeBodyDescription, 0);
+  spore_vec3_store(suction->point, spore_vec3(0, 0.02, 0));
+  suction->trigger = SPORE_FLOW_BUTTON;
+  water->effect = effect;
+  jet.source = 1, jet.point = spore_vec3(0, 0.02, 0), jet.direction = spore_vec3(0, -1, 0);
+  jet.fields.flow = FLOW, jet.fields.radius = BORE, jet.fields.start = 0;
+  jet.fields.trigger = SPORE_FLOW_SECOND_BUTTON;
+  jet.fields.reserve = (int64_t)water->model->node_count;
+  ((SporeEmitterDescription *)rig->description.emitters)[0] = jet;
+  return rig;
+}
+
+/* The volume that comes out is the flow's, to within a particle, while the second button is down and no other; it goes
+ * as fast as it must through the bore. */
+static void test_irrigation(void) {
+  for (int c = 0; c < 6; c++) {
+    bool effect = c % 2;
+    Pedal pedal = {{&pedal_type}, (uint32_t)c / 2};
+    Rig *rig = irrigator(effect);
+    SporeWorld *world = rig_build(rig);
+    spore_world_set_device(world, 1, &pedal.base);
+    double each = spore_world_body_model(world, 0)->particle_volume;
+    g_assert_cmpfloat_with_epsilon(each * PARTICLES, 1e-6, 5e-8); /* of the box */
+    run_to(world, 0.2);
+    uint64_t before = spore_allocation_count();
+    run_to(world, 0.35);
+    g_assert_cmpuint(spore_allocation_count(), ==, before);
+    SporeBodyMarks marks = spore_world_body_marks(world, 0);
+    g_test_message("%s, buttons %u: %.2f ml came in 0.2 s; fastest %.3f m/s", effect ? "effect" : "physics",
+                   pedal.buttons, 1e6 * each * (double)marks.poured, fastest(world));
+    g_assert_cmpuint(particles(world) + marks.sucked, ==, marks.poured);
+    if (pedal.buttons == 2) {
+      g_assert_cmpfloat_with_epsilon(each * (double)marks.poured, 0.2 * FLOW, each);
+      double speed = FLOW / (G_PI * BORE * BORE) * exp(-DRAG * 0.05); /* of the last of them */
+      g_assert_cmpfloat_with_epsilon(fastest(world), speed, effect ? 0.01 : 0.2);
+    } else {
+      g_assert_cmpuint(marks.poured, ==, 0);
+    }
+    uint64_t hash = spore_world_hash(world);
+    spore_world_reset(world);
+    g_assert_cmpuint(spore_world_body_marks(world, 0).poured, ==, 0);
+    run_to(world, 0.35);
+    g_assert_cmphex(spore_world_hash(world), ==, hash);
+    rig_free(rig);
+  }
+}
+
+/* Both buttons: what is poured is sucked up again, and what is sucked up is poured again. */
+static void test_rinsing(void) {
+  Rig *rig = irrigator(true);
+  Pedal pedal = {{&pedal_type}, 3};
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, 1, &pedal.base);
+  run_to(world, 0.35);
+  SporeBodyMarks marks = spore_world_body_marks(world, 0);
+  g_assert_cmpuint(marks.sucked, >, 40);
+  g_assert_cmpuint(particles(world) + marks.sucked, ==, marks.poured);
+  rig_free(rig);
+}
+
+/* Fluids that are out of the world are not in each other's way. */
+static void test_parked(void) {
+  Rig *rig = irrigator(false);
+  const SporeEmitterDescription jet = rig->description.emitters[0];
+  SporeEmitterDescription two[] = {jet, jet};
+  SporeTriangleMesh box;
+  shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
+  rig_passive(rig, "blood", rig_fluid_model(&box, PARTICLES, NULL), NULL);
+  two[1].name = "other", two[1].body = 2;
+  rig->description.emitters = two, rig->description.emitter_count = 2;
+  SporeWorld *world = rig_build(rig);
+  const double *one = spore_world_q(world, 0), *other = spore_world_q(world, 2);
+  size_t count = spore_world_body_model(world, 0)->node_count;
+  double least = INFINITY;
+  for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; k < count; k++)
+      least = fmin(least, spore_vec3_distance(spore_vec3_load(one + 3 * i), spore_vec3_load(other + 3 * k)));
+  g_assert_cmpuint(particles(world) + spore_world_particle_count(world, 2), ==, 0);
+  g_assert_cmpfloat(least, >, 0.01);
+  rig_free(rig);
+}
+
 static void test_refused(void) {
   Rig *rig = drop(0, 1, 10, 100);
   SporeError error = SPORE_ERROR_INIT;
@@ -204,6 +310,11 @@ static void test_refused(void) {
   wound.body = 1;
   rig->description.emitters = &wound;
   g_assert_null(rig_try_build(rig, &error));
+  rig_free(rig);
+  rig = irrigator(true);
+  ((SporeEmitterDescription *)rig->description.emitters)[0].fields.radius = 0;
+  g_assert_null(rig_try_build(rig, &error));
+  g_assert_nonnull(strstr(error.message, "expected a radius above 0"));
   rig_free(rig);
 }
 
@@ -215,6 +326,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/flow/reserve", test_reserve);
   g_test_add_func("/flow/links", test_links);
   g_test_add_func("/flow/mouth-turns", test_mouth_turns);
+  g_test_add_func("/flow/irrigation", test_irrigation);
+  g_test_add_func("/flow/rinsing", test_rinsing);
+  g_test_add_func("/flow/parked", test_parked);
   g_test_add_func("/flow/refused", test_refused);
   return g_test_run();
 }

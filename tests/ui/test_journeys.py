@@ -2510,7 +2510,7 @@ def moved_by_the_gizmo():
 
 
 INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),
-               "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "needle": ("Needle with thread", "needle"), "bag": ("Specimen bag", "probe"),
+               "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "irrigator": ("Suction and irrigation", "suction"), "needle": ("Needle with thread", "needle"), "bag": ("Specimen bag", "probe"),
                "endoscope": ("Endoscope", "probe"), "endoscope_30": ("Endoscope, 30 degrees", "probe")}
 
 
@@ -2751,6 +2751,54 @@ def which_instrument_is_led():
         editor.keys("Right", "Right", "Right", "c")
         editor.act("step")
         ui.wait(lambda: (editor.time_s() or 0) > before and picture_sum(editor) != where, "the keys to lead it")
+
+
+@check
+def an_irrigator_pours_while_its_button_is_down():
+    """Ctrl with the right button pours water, and O until L lets go; the right button alone does not. What the view says is poured the recording pours, too."""
+    scene, recording, poured = two_balls("rinsed"), folder("rinsed") / "rinsed.track", r"Poured (\d+\.\d) ml"
+
+    def stands(editor):
+        """Whether no more of it comes while time passes."""
+        before = editor.hud(poured)
+        let_time_pass(editor, 0.2)
+        return editor.hud(poured) == before
+
+    for words in (("--instrument", "irrigator@-0.1,0.2,0@-0.05,0.06,0"), ("--set", "effects/irrigator_1_irrigation/flow=2e-6")):
+        subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "edit", scene, *words], check=True, stdout=subprocess.DEVNULL)
+    with start(scene) as editor:
+        on_balls(editor)
+        editor.act("tool", "s", "probe")
+        editor.act("step")
+        editor.find("label", "right button or C draws away, Ctrl.right button or O pours, L lets go")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = ("mousemove", x + width // 2, y + height // 2)
+        editor.focus()
+        editor.act("play")
+        editor.mouse(*middle, "mousedown", 3)
+        let_time_pass(editor)
+        editor.mouse("mouseup", 3)
+        let_time_pass(editor)
+        assert editor.hud(poured) is None
+        press_until(editor, ("keydown", "Control_L", "mouseup", 3, "mousedown", 3), lambda: (editor.hud(poured) or 0) > 0.3, "water to be poured")
+        keep_picture(editor, "irrigated")
+        press_until(editor, ("mouseup", 3, "keyup", "Control_L"), lambda: stands(editor), "the button to let go")
+        before = editor.hud(poured)
+        editor.keys("o")
+        ui.wait(lambda: (editor.hud(poured) or 0) > before + 0.3, "the key to pour")
+        editor.keys("l")
+        ui.wait(lambda: stands(editor), "the key to let go")
+        editor.act("pause")
+        shown = editor.hud(poured)
+        editor.act("save-recording", "s", str(recording))
+        ui.wait(recording.exists, "the recording")
+    samples = [line.split() for line in recording.read_text().partition("device irrigator_1\n")[2].splitlines()]
+    pressed = [int(sample[9]) for sample in samples]
+    assert {0, 2} <= set(pressed) and pressed[-1] == 0, set(pressed)
+    ran = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "run", scene, "--input", recording, "--time", samples[-1][0], "--json"],
+                         check=True, capture_output=True, text=True)
+    water = json.loads(ran.stdout)["fluids"][0]
+    assert abs(water["poured_ml"] - shown) < 0.2, (water, shown)
 
 
 def press_until(editor, words, condition, what):

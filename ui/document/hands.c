@@ -59,3 +59,14 @@ gboolean spore_hand_latches(SporeDocument *document, const SporeObject *hand) {
   const SporeObject *tool = tool_of(document, hand);
   return tool && g_str_equal(spore_object_type(tool)->element, "clamp");
 }
+
+gboolean spore_hand_pours(SporeDocument *document, const SporeObject *hand) {
+  const SporeObject *effects = spore_document_section(document, "effects");
+  for (guint i = 0; i < spore_object_child_count(effects); i++) {
+    const SporeObject *emitter = spore_object_child(effects, i);
+    if (spore_object_reference(emitter, "source") == hand &&
+        (int)spore_object_number(emitter, "trigger") == SPORE_FLOW_SECOND_BUTTON)
+      return TRUE;
+  }
+  return FALSE;
+}

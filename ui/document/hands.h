@@ -13,5 +13,7 @@ SporeObject *spore_hand_of(SporeDocument *document, SporeObject *object);
 gboolean spore_hand_jaws(SporeDocument *document, const SporeObject *hand, SporeObject *jaws[2]);
 /* Whether it stays closed until a second button opens it. */
 gboolean spore_hand_latches(SporeDocument *document, const SporeObject *hand);
+/* Whether something comes out of it while a second button is down. */
+gboolean spore_hand_pours(SporeDocument *document, const SporeObject *hand);
 
 #endif

@@ -1,4 +1,4 @@
-/* Decimal marks, lengths in mm, and angles in degrees. */
+/* Decimal marks, lengths in mm, angles in degrees, and flows in ml/min. */
 #include "ui/document/number-text.h"
 
 #include <glib.h>
@@ -134,12 +134,17 @@ int spore_number_text_cut_length(char *typed) {
   return -3;
 }
 
-/* Angles. */
+/* Angles and flows. */
 
-#define RADIANS_A_DEGREE (G_PI / 180)
 #define MOST_DECIMALS 12
-#define ROUNDED_RAD 3.5e-4 /* a rounded angle is off by no more, 0.02 degrees, */
-#define ROUNDED_SHARE 1e-3 /* and by no more than this share of itself */
+#define ROUNDED_SHARE 1e-3 /* a rounded number is off by no more than this share of itself */
+
+/* A unit that is no power of ten of that of the file. */
+typedef enum Unit { DEGREE, MILLILITRE_A_MINUTE } Unit;
+static const struct {
+  double each;    /* in the unit of the file */
+  double rounded; /* in the unit of the file: a rounded number is off by no more; of angles 0.02 degrees */
+} units[] = {[DEGREE] = {G_PI / 180, 3.5e-4}, [MILLILITRE_A_MINUTE] = {1e-6 / 60, HUGE_VAL}};
 
 static gboolean read_number(const char *word, gsize length, double *number) {
   char *end;
@@ -154,32 +159,42 @@ static int decimals_of(const char *word, gsize length) {
   return CLAMP((point ? (int)(end - point - 1) : 0) - power, 0, MOST_DECIMALS);
 }
 
-static gboolean append_degrees(GString *out, const char *word, gsize length, int unused) {
-  double radians;
+static gboolean append_shown(GString *out, const char *word, gsize length, int unit) {
+  double number;
   char text[512], format[8];
-  if (!read_number(word, length, &radians)) return FALSE;
-  double off = MIN(ROUNDED_RAD, ROUNDED_SHARE * fabs(radians));
+  if (!read_number(word, length, &number)) return FALSE;
+  double off = MIN(units[unit].rounded, ROUNDED_SHARE * fabs(number));
   off = MIN(off, 0.5 * pow(10, -decimals_of(word, length)));
   for (int decimals = 0; decimals <= MOST_DECIMALS + 4; decimals++) {
     g_snprintf(format, sizeof format, "%%.%df", decimals);
-    g_ascii_formatd(text, sizeof text, format, radians / RADIANS_A_DEGREE);
-    if (fabs(g_ascii_strtod(text, NULL) * RADIANS_A_DEGREE - radians) <= off) break;
+    g_ascii_formatd(text, sizeof text, format, number / units[unit].each);
+    if (fabs(g_ascii_strtod(text, NULL) * units[unit].each - number) <= off) break;
   }
   g_string_append(out, text);
   return TRUE;
 }
 
-static gboolean append_radians(GString *out, const char *word, gsize length, int unused) {
-  double degrees;
+static gboolean append_kept(GString *out, const char *word, gsize length, int unit) {
+  double shown;
   char text[G_ASCII_DTOSTR_BUF_SIZE];
-  if (!read_number(word, length, &degrees)) return FALSE;
-  g_string_append(out, g_ascii_dtostr(text, sizeof text, degrees * RADIANS_A_DEGREE));
+  if (!read_number(word, length, &shown)) return FALSE;
+  g_string_append(out, g_ascii_dtostr(text, sizeof text, shown * units[unit].each));
   return TRUE;
 }
 
-char *spore_number_text_degrees(const char *text) { return each_word(text, append_degrees, 0); }
+char *spore_number_text_degrees(const char *text) { return each_word(text, append_shown, DEGREE); }
 
-char *spore_number_text_radians(const char *text) { return each_word(text, append_radians, 0); }
+char *spore_number_text_radians(const char *text) { return each_word(text, append_kept, DEGREE); }
+
+char *spore_number_text_flow(const char *text) { return each_word(text, append_shown, MILLILITRE_A_MINUTE); }
+
+char *spore_number_text_from_flow(const char *text) { return each_word(text, append_kept, MILLILITRE_A_MINUTE); }
+
+int spore_number_text_cut_flow(char *typed) {
+  g_strchomp(typed);
+  if (cut(typed, "ml/min")) return 0;
+  return cut(typed, "l/min") ? 3 : 0;
+}
 
 int spore_number_text_cut_angle(char *typed) {
   g_strchomp(typed);

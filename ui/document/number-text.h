@@ -1,4 +1,5 @@
-/* Numbers as people type and read them: with the decimal mark of their language, lengths in mm, angles in degrees. */
+/* Numbers as people type and read them: with the decimal mark of their language, lengths in mm, angles in degrees,
+ * flows in ml/min. */
 #ifndef SPORE_UI_DOCUMENT_NUMBER_TEXT_H
 #define SPORE_UI_DOCUMENT_NUMBER_TEXT_H
 
@@ -23,5 +24,11 @@ char *spore_number_text_radians(const char *text);
 /* Cuts "°", "deg" or "rad" from the end of what was typed. TRUE: these are degrees, as the window shows angles;
  * FALSE: radians. */
 int spore_number_text_cut_angle(char *typed);
+/* The text of a scene's file, m^3/s, in ml/min, as short as angles are; and the reverse. g_free. */
+char *spore_number_text_flow(const char *text);
+char *spore_number_text_from_flow(const char *text);
+/* Cuts "ml/min" or "l/min" from the end of what was typed, and tells how far the decimal point of ml/min lies from that
+ * of the unit: l/min 3, else 0, since the window shows flows in ml/min. */
+int spore_number_text_cut_flow(char *typed);
 
 #endif

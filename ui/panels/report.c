@@ -65,12 +65,15 @@ char *spore_choice_label(const char *choice) {
 
 gboolean spore_unit_is_angle(const char *unit) { return g_str_equal(unit, "rad") || g_str_equal(unit, "rad/s"); }
 
+gboolean spore_unit_is_flow(const char *unit) { return g_str_equal(unit, "m^3/s"); }
+
 double spore_unit_scale(const char *unit) {
+  if (spore_unit_is_flow(unit)) return 60e6;
   return g_str_equal(unit, "m") ? 1e3 : spore_unit_is_angle(unit) ? 180 / G_PI : 1;
 }
 
 char *spore_unit_label(const char *unit) {
-  GString *label = g_string_new(g_str_equal(unit, "m") ? "mm" : unit);
+  GString *label = g_string_new(g_str_equal(unit, "m") ? "mm" : spore_unit_is_flow(unit) ? "ml/min" : unit);
   if (spore_unit_is_angle(unit)) g_string_replace(label, "rad", "°", 0);
   g_string_replace(label, "^2", "²", 0);
   g_string_replace(label, "^3", "³", 0);

@@ -24,9 +24,12 @@ char *spore_label_of(const char *name);
 char *spore_choice_label(const char *choice);
 /* Whether the window shows the unit in degrees: "rad", "rad/s". */
 gboolean spore_unit_is_angle(const char *unit);
-/* The unit that the window shows for one of the tables: "m/s²" of "m/s^2", "mm" of "m", "°" of "rad". g_free. */
+/* Whether the window shows the unit in ml/min: "m^3/s". */
+gboolean spore_unit_is_flow(const char *unit);
+/* The unit that the window shows for one of the tables: "m/s²" of "m/s^2", "mm" of "m", "°" of "rad", "ml/min" of
+ * "m^3/s". g_free. */
 char *spore_unit_label(const char *unit);
-/* How many of the units shown are one of the tables' units: 1e3 of "m", 57.3 of "rad", else 1. */
+/* How many of the units shown are one of the tables' units: 1e3 of "m", 57.3 of "rad", 6e7 of "m^3/s", else 1. */
 double spore_unit_scale(const char *unit);
 /* The value as the file would hold it. g_free. */
 char *spore_value_text(const SporeParameter *parameter, const SporeValue *value);

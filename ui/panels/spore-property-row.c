@@ -31,10 +31,12 @@ static const SporeParameter *parameter_of(SporePropertyRow *self) {
   return &self->type->table->parameters[self->property];
 }
 
-/* Lengths are shown in mm, as everywhere in the window, and angles in degrees. */
+/* Lengths are shown in mm, as everywhere in the window, angles in degrees, and flows in ml/min. */
 static gboolean is_length(const SporeParameter *parameter) { return g_str_equal(parameter->unit, "m"); }
 
 static gboolean is_angle(const SporeParameter *parameter) { return spore_unit_is_angle(parameter->unit); }
+
+static gboolean is_flow(const SporeParameter *parameter) { return spore_unit_is_flow(parameter->unit); }
 
 static gboolean is_colour(const SporeParameter *parameter) {
   return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
@@ -122,8 +124,9 @@ static gboolean is_automatic(const SporeParameter *parameter, const char *text) 
 static char *entry_text(SporePropertyRow *self, const char *text) {
   if (is_automatic(parameter_of(self), text)) return g_strdup("");
   if (!is_number(self)) return g_strdup(text);
-  g_autofree char *shown = is_angle(parameter_of(self))
-                               ? spore_number_text_degrees(text)
+  g_autofree char *shown = is_angle(parameter_of(self)) ? spore_number_text_degrees(text)
+                           : is_flow(parameter_of(self))
+                               ? spore_number_text_flow(text)
                                : spore_number_text_shift(text, is_length(parameter_of(self)) ? 3 : 0);
   return spore_number_text_show(shown, spore_number_mark());
 }
@@ -132,11 +135,16 @@ static char *entry_text(SporePropertyRow *self, const char *text) {
 static char *typed_text(SporePropertyRow *self, const char *typed) {
   if (!is_number(self)) return g_strstrip(g_strdup(typed));
   g_autofree char *plain = g_strdup(typed);
-  int digits = is_length(parameter_of(self)) ? spore_number_text_cut_length(plain) : 0;
+  gboolean flow = is_flow(parameter_of(self));
+  int digits = flow                            ? spore_number_text_cut_flow(plain)
+               : is_length(parameter_of(self)) ? spore_number_text_cut_length(plain)
+                                               : 0;
   gboolean degrees = is_angle(parameter_of(self)) && spore_number_text_cut_angle(plain);
   g_autofree char *text = spore_number_text_read(plain, spore_number_mark());
   if (degrees) return spore_number_text_radians(text);
-  return digits == 0 ? g_steal_pointer(&text) : spore_number_text_shift(text, digits);
+  if (digits == 0 && !flow) return g_steal_pointer(&text);
+  g_autofree char *shifted = spore_number_text_shift(text, digits);
+  return flow ? spore_number_text_from_flow(shifted) : g_steal_pointer(&shifted);
 }
 
 /* What a number may be, in the unit that is shown. NULL: anything, or no number. g_free. */

@@ -153,27 +153,12 @@ static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object,
          spore_world_lod_model(simulation->world, body->world_body, SPORE_LOD_FINE)->type->particles;
 }
 
-#define ALL_OF_IT 0.9 /* of the particles of a fluid: how many there are is known only once the surface is filled */
-
-/* Whether emitters keep back a fluid until it flows, so that nothing of it is there at the start. */
-static gboolean is_kept_back(SporeStage *stage, const SporeObject *object) {
-  const SporeObject *model = spore_body_model_object(object);
-  const SporeObject *effects = spore_document_section(stage->document, "effects");
-  double kept = 0;
-  if (!model || !spore_object_type(model)->model->particles) return FALSE;
-  for (guint i = 0; i < spore_object_child_count(effects); i++) {
-    const SporeObject *emitter = spore_object_child(effects, i);
-    if (spore_object_reference(emitter, "body") == object) kept += spore_object_number(emitter, "reserve");
-  }
-  return kept > 0 && kept >= ALL_OF_IT * spore_object_number(model, "particles");
-}
-
 /* The mesh of the visual unit. Without one: the mesh of the mechanical unit, the boundary of its tetrahedra, or a tube
  * around its curve. */
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
-  if (body->smoke || (!simulation && is_kept_back(stage, object))) return;
+  if (body->smoke || (!simulation && spore_body_is_kept_back(stage->document, object))) return;
   SporeObject *asset = asset_of(stage, visual, "mesh", "mesh");
   body->liquid = !asset && is_liquid(body, object, simulation);
   if (body->liquid) return; /* comes with its spheres */

@@ -173,8 +173,8 @@ gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, Spo
 
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   if (event->button == GDK_BUTTON_SECONDARY) {
-    /* With Shift, jaws and pedal stay as they are until the button is pressed and released again. A clamp stays closed
-     * by itself; Ctrl and the button open it. */
+    /* With Shift, jaws and pedals stay as they are until the button is pressed and released again. A clamp stays closed
+     * by itself; Ctrl and the button open it, or press the second pedal of others. */
     if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK))
       spore_viewport_hand_squeeze(self, SPORE_HAND_RESTS);
     return GDK_EVENT_STOP;

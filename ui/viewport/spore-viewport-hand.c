@@ -148,10 +148,12 @@ static void move(SporeViewport *self, double to_right, double to_top, double awa
 
 void spore_viewport_hand_deepen(SporeViewport *self, double notches) { move(self, 0, 0, -notches); }
 
-/* A click may be shorter than a step; so what opens goes on to do so until it is closed. */
+/* A click may be shorter than a step; so a clamp that opens goes on to do so until it is closed. */
 void spore_viewport_hand_squeeze(SporeViewport *self, SporeHandSqueeze squeeze) {
-  gboolean opens = self->hand.buttons == SPORE_HAND_OPENS;
-  if ((opens && squeeze == SPORE_HAND_RESTS) || !take_hand(self)) return;
+  const SporeObject *led = spore_viewport_get_led(self);
+  gboolean opens = self->hand.buttons == SPORE_HAND_OPENS && squeeze == SPORE_HAND_RESTS;
+  if (opens && led && spore_hand_latches(spore_editor_document_get(self->document), led)) return;
+  if (!take_hand(self)) return;
   self->hand.grip_rad = squeeze == SPORE_HAND_CLOSES ? 0 : G_PI;
   self->hand.buttons = squeeze; /* as bits */
   lead(self);
@@ -162,6 +164,7 @@ gboolean spore_viewport_hand_key(SporeViewport *self, guint key) {
   if (key == GDK_KEY_n || key == GDK_KEY_p) choose(self, key == GDK_KEY_n ? 1 : -1);
   else if (key == GDK_KEY_c) spore_viewport_hand_squeeze(self, SPORE_HAND_CLOSES);
   else if (key == GDK_KEY_o) spore_viewport_hand_squeeze(self, SPORE_HAND_OPENS);
+  else if (key == GDK_KEY_l) spore_viewport_hand_squeeze(self, SPORE_HAND_RESTS);
   else if (key == GDK_KEY_Left) move(self, -1, 0, 0);
   else if (key == GDK_KEY_Right) move(self, 1, 0, 0);
   else if (key == GDK_KEY_Up) move(self, 0, 1, 0);

@@ -136,6 +136,8 @@ void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, in
 /* Figures in the corner. */
 
 /* Counts of cuts, punctures and stitches. */
+#define MILLILITRES 1e6 /* in a cubic metre */
+
 static void append_tools(GString *text, const SporeSnapshot *snapshot) {
   const SporeToolCounts *tools = &snapshot->tools;
   if (tools->cut > 0) {
@@ -145,6 +147,10 @@ static void append_tools(GString *text, const SporeSnapshot *snapshot) {
   if (tools->pierced > 0) {
     g_string_append_c(text, '\n');
     g_string_append_printf(text, _("Pierced %zu, stitches %zu"), tools->pierced, tools->stitches);
+  }
+  if (tools->poured > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Poured %.1f ml"), MILLILITRES * tools->poured);
   }
 }
 

@@ -237,7 +237,8 @@ void spore_viewport_hand_motion(SporeViewport *self);
 void spore_viewport_hand_turn(SporeViewport *self, double dx, double dy);
 void spore_viewport_hand_take_back(SporeViewport *self); /* to where the drag began */
 void spore_viewport_hand_deepen(SporeViewport *self, double notches);
-/* Closes or opens the jaws, presses or releases the pedal. What stays closed by itself is opened. */
+/* Closes or opens the jaws, presses the first or the second pedal, or releases both. What stays closed by itself is
+ * opened. */
 void spore_viewport_hand_squeeze(SporeViewport *self, SporeHandSqueeze squeeze);
 gboolean spore_viewport_hand_key(SporeViewport *self, guint key); /* FALSE: not its key */
 void spore_viewport_hand_draw(SporeViewport *self, cairo_t *cr);  /* its name */

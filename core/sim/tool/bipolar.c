@@ -27,7 +27,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
   SporeBipolar *bipolar = (SporeBipolar *)tool;
   const SporeBody *holder = &world->bodies[tool->bodies[0]];
   bipolar->coagulated = 0;
-  if (!spore_tool_button(world, tool->bodies[0])) return;
+  if (!spore_tool_button(world, tool->bodies[0], SPORE_FIRST_BUTTON)) return;
   const double *q = world->state.q + holder->q_offset;
   SporeVec3 point = spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->tip);
   const SporeBipolarFields *fields = &bipolar->fields;

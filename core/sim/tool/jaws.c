@@ -15,11 +15,10 @@
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
 
-#define HOLD_SHARE 0.5     /* of the torque: squeeze from which jaws hold */
-#define LET_GO_RAD 0.02    /* opening beyond that at which holding began, which releases */
-#define PINCHED 0.3        /* of the radius of an effect's sphere: depth of both jaws in it together, to hold it */
-#define REACHED -0.1       /* the same of each: from there a jaw reaches it */
-#define SECOND_BUTTON 0x2u /* opens a clamp */
+#define HOLD_SHARE 0.5  /* of the torque: squeeze from which jaws hold */
+#define LET_GO_RAD 0.02 /* opening beyond that at which holding began, which releases */
+#define PINCHED 0.3     /* of the radius of an effect's sphere: depth of both jaws in it together, to hold it */
+#define REACHED -0.1    /* the same of each: from there a jaw reaches it */
 
 const char *const spore_jaw_triggers[] = {"grip", "button", NULL};
 
@@ -234,13 +233,14 @@ static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, con
 
 /* The opening that the device asks for. */
 static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, bool has_input) {
-  if (jaws->latches && (input->buttons & SECOND_BUTTON)) {
+  if (jaws->latches && (input->buttons & SPORE_SECOND_BUTTON)) {
     jaws->latched = false;
     return jaws->fields.opening;
   }
   if (jaws->latched) return 0;
   if (!has_input) return jaws->opening;
-  if (jaws->fields.trigger == SPORE_TRIGGER_BUTTON) return input->buttons & 1u ? 0 : jaws->fields.opening;
+  if (jaws->fields.trigger == SPORE_TRIGGER_BUTTON)
+    return input->buttons & SPORE_FIRST_BUTTON ? 0 : jaws->fields.opening;
   return fmin(fmax(input->grip_rad, 0), jaws->fields.opening);
 }
 

@@ -10,6 +10,7 @@
 #include "core/sim/world_private.h"
 
 #define PARKING_M (2 * SPORE_PARTICLES_OUT_M) /* along x */
+#define LANE_M 1.                             /* along y: from one body to the next, wider than any particle reaches */
 #define GAP_SPACINGS 10. /* between particles out of the world, in mean distances of the fluid's particles */
 #define NEAREST 1.1      /* of that distance: a particle that comes nearer to another would be thrown out */
 #define TRIES 8          /* random places in an emitter's mouth that are tried for a particle in a step */
@@ -20,7 +21,7 @@ bool spore_body_is_fluid(const SporeBody *body) { return body->model && body->mo
 
 static SporeVec3 parking_place(const SporeBody *body, size_t particle) {
   assert(body->parking_gap > 0);
-  return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, 0, 0};
+  return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, body->parking_lane, 0};
 }
 
 static double spacing(const SporeBody *body) { return body->parking_gap / GAP_SPACINGS; }
@@ -36,6 +37,7 @@ static bool make_parking(SporeWorld *world, SporeBody *body) {
     upper[i % 3] = fmax(upper[i % 3], q[i]);
   }
   for (int k = 0; k < 3; k++) volume *= fmax(upper[k] - lower[k], 1e-6);
+  for (size_t b = 0; b < world->body_count; b++) body->parking_lane += world->bodies[b].parking_gap > 0 ? LANE_M : 0;
   body->parking_gap = GAP_SPACINGS * cbrt(volume / (double)body->block_count);
   uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, body->block_count, sizeof *held);
   if (held) body->held.blocks = held;
@@ -117,7 +119,8 @@ static bool coagulates(const SporeWorld *world, uint32_t body) {
 /* Whether a flow is on: always, or by what its body does. */
 static bool flows(const SporeWorld *world, int trigger, uint32_t body) {
   if (trigger == SPORE_FLOW_COAGULATION) return coagulates(world, body);
-  return trigger == SPORE_FLOW_ALWAYS || spore_tool_button(world, body);
+  uint32_t button = trigger == SPORE_FLOW_SECOND_BUTTON ? SPORE_SECOND_BUTTON : SPORE_FIRST_BUTTON;
+  return trigger == SPORE_FLOW_ALWAYS || spore_tool_button(world, body, button);
 }
 
 double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_t body, double due) {
@@ -143,17 +146,28 @@ static double next_random(uint64_t *state) {
   return (double)(*state >> 11) * 0x1p-53;
 }
 
-static bool is_free(const SporeWorld *world, const SporeBody *body, SporeVec3 at) {
+static bool is_jet(const SporeEmitter *emitter) { return emitter->fields.flow > 0; }
+
+/* Smoke may overlap, and so may what is poured as an effect: drops part gently. Particles of a jet come as near as in
+ * the fluid, since no more of them come out than there is room for in the jet. */
+static bool is_free(const SporeWorld *world, const SporeEmitter *emitter, SporeVec3 at) {
+  const SporeBody *body = &world->bodies[emitter->body];
   const double *q = world->state.next_q + body->q_offset;
-  if (dissolves(body)) return true; /* smoke may overlap */
+  double nearest = is_jet(emitter) ? cbrt(body->model->particle_volume) : NEAREST * spacing(body);
+  if (dissolves(body) || (is_jet(emitter) && body->effect.on)) return true;
   for (size_t i = 0; i < body->block_count; i++)
-    if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < NEAREST * spacing(body)) return false;
+    if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < nearest) return false;
   return true;
 }
 
-/* Finds a place in the mouth without a particle. */
+/* How far out of the mouth a particle is that the flow let out within the step, m: the first of them are farther. */
+static double way_ahead(const SporeEmitter *emitter) {
+  return is_jet(emitter) ? emitter->fields.speed * (emitter->due - 1) / emitter->fields.rate : 0;
+}
+
+/* Finds a place in the mouth, or in the jet before it, without a particle. */
 static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const SporePose *frame, SporeVec3 *at) {
-  const SporeBody *body = &world->bodies[emitter->body];
+  SporeVec3 middle = spore_vec3_add_scaled(emitter->point, way_ahead(emitter), emitter->direction);
   SporeVec3 one = spore_vec3_cross(emitter->direction,
                                    fabs(emitter->direction.x) < 0.5 ? (SporeVec3){1, 0, 0} : (SporeVec3){0, 1, 0});
   one = spore_vec3_normalise(one, (SporeVec3){0, 0, 1});
@@ -161,11 +175,19 @@ static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const Spo
   for (int i = 0; i < TRIES; i++) {
     double radius = emitter->fields.radius * sqrt(next_random(&emitter->tries));
     double angle = 6.283185307179586 * next_random(&emitter->tries);
-    SporeVec3 local = spore_vec3_add_scaled(emitter->point, radius * cos(angle), one);
+    SporeVec3 local = spore_vec3_add_scaled(middle, radius * cos(angle), one);
     *at = spore_pose_apply(*frame, spore_vec3_add_scaled(local, radius * sin(angle), other));
-    if (is_free(world, body, *at)) return true;
+    if (is_free(world, emitter, *at)) return true;
   }
   return false;
+}
+
+/* Of a jet, the part of a particle that is left over in a step comes in a later one, so that nothing of its flow is
+ * lost. */
+static double due_of(const SporeWorld *world, const SporeEmitter *emitter, int trigger) {
+  double rate = emitter->fields.rate, most = rate * world->solver.time_step;
+  if (!is_jet(emitter)) return spore_flow_due(world, rate, trigger, emitter->source, emitter->due);
+  return flows(world, trigger, emitter->source) ? fmin(emitter->due + most, 1 + most) : 0;
 }
 
 static void emit(SporeWorld *world, SporeEmitter *emitter) {
@@ -176,8 +198,7 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   bool wound = fields->trigger == SPORE_FLOW_WOUND;
   if (wound && !bleeds(world, emitter)) return;
   if (time_s < fields->start || body->frozen || body->held.count == body->held.pin_count) return;
-  emitter->due =
-      spore_flow_due(world, fields->rate, wound ? SPORE_FLOW_ALWAYS : fields->trigger, emitter->source, emitter->due);
+  emitter->due = due_of(world, emitter, wound ? SPORE_FLOW_ALWAYS : fields->trigger);
   if (emitter->due < 1) return;
   if (spore_body_lies_still(body)) {
     spore_world_wake(world, emitter->body); /* it gets particles after the next step */
@@ -189,6 +210,8 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   while (emitter->due >= 1 && body->held.count > body->held.pin_count && find_place(world, emitter, &frame, &at)) {
     put(world, body, body->held.blocks[--body->held.count], at, velocity);
     emitter->due--;
+    body->marks.poured++;
+    if (is_jet(emitter)) world->tools.counts.poured += body->model->particle_volume;
   }
 }
 
@@ -245,7 +268,10 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
   if (from->fields.trigger == SPORE_FLOW_COAGULATION && !is_bipolar(world, from->source))
     return _("the mouth is in nothing that coagulates, so that nothing comes out; expected the body of a bipolar tool; "
              "choose it, or another trigger");
-  if (from->fields.trigger == SPORE_FLOW_BUTTON && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
+  bool button = from->fields.trigger == SPORE_FLOW_BUTTON || from->fields.trigger == SPORE_FLOW_SECOND_BUTTON;
+  if (from->fields.flow > 0 && !(from->fields.radius > 0))
+    return _("the mouth has a flow, and no width that it could go through; expected a radius above 0; set it");
+  if (button && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
     return _("the mouth is in nothing that a device moves, so that no button lets anything out; expected an active "
              "body; choose one, or let it flow always");
   return NULL;
@@ -278,9 +304,17 @@ static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
   }
 }
 
+/* What comes out with a flow: as many particles as make up its volume, as fast as it goes through the mouth. */
+static void set_flow(SporeEmitterFields *fields, double particle_volume) {
+  if (!(fields->flow > 0)) return;
+  fields->rate = fields->flow / particle_volume;
+  fields->speed = fields->flow / (3.141592653589793 * fields->radius * fields->radius);
+}
+
 static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
   *emitter = (SporeEmitter){.body = from->body, .source = from->source, .fields = from->fields};
   begin(emitter);
+  set_flow(&emitter->fields, world->bodies[from->body].model->particle_volume);
   spore_emitter_set_mouth(world, emitter, from->point, from->direction);
   keep_back(world, &world->bodies[from->body], (size_t)from->fields.reserve);
 }
@@ -315,9 +349,13 @@ bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription
 
 const char *const spore_flow_triggers[] = {"always", "button", NULL};
 
-static const char *const triggers[] = {"always", "button", "coagulation", "wound", NULL};
+static const char *const triggers[] = {"always", "button", "coagulation", "wound", "second_button", NULL};
 
 static const SporeParameter rows[] = {
+    SPORE_ROW_REAL(
+        SporeEmitterFields, flow, "m^3/s", 0, 1, 0,
+        N_("Volume that comes out in a second: a jet out of a tube as wide as the mouth, whose speed follows "
+           "from both; an irrigator pours 1 l/min, 1.667e-5. 0: rate and speed say what comes.")),
     SPORE_ROW_REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
                    N_("Particles that come out in a second, at most: none comes where one still is.")),
     SPORE_ROW_REAL(SporeEmitterFields, speed, "m/s", 0, 100, 0.05, N_("How fast they come out.")),
@@ -328,7 +366,7 @@ static const SporeParameter rows[] = {
     SPORE_ROW_CHOICE(
         SporeEmitterFields, trigger, triggers,
         N_("When they come out: always; while the first button is down on the device of the instrument "
-           "that the mouth is in; while that instrument coagulates tissue; or from the moment when the body "
-           "that the mouth is in is cut until that body is coagulated.")),
+           "that the mouth is in; while that instrument coagulates tissue; from the moment when the body "
+           "that the mouth is in is cut until that body is coagulated; or while the second button is down.")),
 };
 const SporeParameterTable spore_emitter_parameters = SPORE_TABLE(rows, SporeEmitterFields);

@@ -25,11 +25,11 @@ typedef struct SporeEmitter {
   uint32_t beside[2]; /* nodes near that one, by which the mouth turns */
   SporeMat3 triangle; /* of the three at time 0: along the first side, in the plane, and across it */
   bool on_a_line;     /* the three are no triangle: the mouth turns by the first side alone */
-  SporeEmitterFields fields;
-  double due;           /* particles that the rate allows by now; whole ones are put */
-  bool bleeds;          /* of a wound: it was cut, and not coagulated since */
-  SporeBodyMarks marks; /* of the source when that was found */
-  uint64_t tries;       /* state of the random numbers by which places in the mouth are chosen */
+  SporeEmitterFields fields; /* with the rate and the speed of its flow, where it has one */
+  double due;                /* particles that the rate allows by now; whole ones are put */
+  bool bleeds;               /* of a wound: it was cut, and not coagulated since */
+  SporeBodyMarks marks;      /* of the source when that was found */
+  uint64_t tries;            /* state of the random numbers by which places in the mouth are chosen */
 } SporeEmitter;
 
 /* All tools and emitters of a world. */
@@ -59,8 +59,10 @@ void spore_world_feed_back_tools(SporeWorld *world);
 const char *spore_tool_point_fault(const double point[3]);
 /* A direction of the world at time 0, as a unit vector in the frame of a body. */
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]);
-/* Whether the first button of the device that moves the body is down. */
-bool spore_tool_button(const SporeWorld *world, uint32_t body);
+/* Buttons of a device, as bits. */
+enum { SPORE_FIRST_BUTTON = 1, SPORE_SECOND_BUTTON = 2 };
+/* Whether that button of the device that moves the body is down. */
+bool spore_tool_button(const SporeWorld *world, uint32_t body, uint32_t button);
 
 /* particles.c: particles that leave the world and come back. A particle out of the world is kept far away, at rest. */
 bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);

@@ -102,12 +102,13 @@ typedef struct SporeJawFields {
   int trigger;               /* SporeTrigger */
 } SporeJawFields;
 
-/* When particles flow. Suction knows the first two. */
+/* When particles flow. Suction knows the first two. In this order they are in the file. */
 typedef enum SporeFlowTrigger {
   SPORE_FLOW_ALWAYS,
-  SPORE_FLOW_BUTTON,      /* while the first button is down */
-  SPORE_FLOW_COAGULATION, /* while the tool coagulates tissue */
-  SPORE_FLOW_WOUND        /* from a cut in the body until the body is coagulated */
+  SPORE_FLOW_BUTTON,       /* while the first button is down */
+  SPORE_FLOW_COAGULATION,  /* while the tool coagulates tissue */
+  SPORE_FLOW_WOUND,        /* from a cut in the body until the body is coagulated */
+  SPORE_FLOW_SECOND_BUTTON /* while the second button is down */
 } SporeFlowTrigger;
 /* Parameters of suction. */
 typedef struct SporeSuctionFields {

@@ -80,7 +80,7 @@ bool spore_world_create_tools(SporeWorld *world, const SporeWorldDescription *de
 }
 
 static void count_tools(SporeWorld *world) {
-  SporeToolCounts counts = {0};
+  SporeToolCounts counts = {.poured = world->tools.counts.poured};
   for (size_t i = 0; i < world->tools.count; i++) {
     SporeToolState state = spore_world_tool_state(world, i);
     counts.cut += state.cut;
@@ -96,6 +96,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     if (tool->type->reset) tool->type->reset(world, tool);
   }
   for (size_t b = 0; b < world->body_count; b++) world->bodies[b].marks = (SporeBodyMarks){0};
+  world->tools.counts.poured = 0;
   count_tools(world);
 }
 
@@ -157,10 +158,10 @@ SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const dou
   return spore_quat_rotate(back, spore_vec3_normalise(spore_vec3_load(direction), (SporeVec3){0, 0, 0}));
 }
 
-bool spore_tool_button(const SporeWorld *world, uint32_t body) {
+bool spore_tool_button(const SporeWorld *world, uint32_t body, uint32_t button) {
   assert(body == SPORE_NO_BODY || body < world->body_count);
   const SporeBodyDevice *device = body == SPORE_NO_BODY ? NULL : &world->bodies[body].device;
-  return device && device->has_input && (device->input.buttons & 1u);
+  return device && device->has_input && (device->input.buttons & button);
 }
 
 size_t spore_world_tool_holds(const SporeWorld *world, size_t index, uint32_t body) {
