@@ -108,6 +108,28 @@ static void test_depth_and_stride(void) {
   bench_close(&bench);
 }
 
+/* A picture that is drawn while the caller goes on is the one that is drawn at once; the last that was begun counts. */
+static void test_begun_and_read(void) {
+  static const double sphere[4] = {0, 0, 0, 0.03};
+  Bench bench = bench_open();
+  g_assert_false(spore_renderer_is_drawn(bench.renderer, 0)); /* none was begun */
+  guint group = spore_renderer_add_spheres(bench.renderer, sphere, 1, red, NULL, FALSE);
+  const SporeCamera camera = straight_camera(0.3), other = straight_camera(0.2);
+  Picture at_once = draw_picture(bench.renderer, &camera, 64, 64, FALSE, FALSE);
+  const SporeRenderOptions options = {.width = 64, .height = 64}, small = {.width = 16, .height = 16};
+  g_assert_true(spore_renderer_begin(bench.renderer, &other, &small, NULL));
+  g_assert_true(spore_renderer_begin(bench.renderer, &camera, &options, NULL));
+  spore_renderer_remove(bench.renderer, group); /* after it was begun */
+  g_autofree guint8 *pixels = g_malloc(64 * 64 * 4);
+  while (!spore_renderer_is_drawn(bench.renderer, 1)) {
+  }
+  g_assert_true(spore_renderer_read(bench.renderer, pixels, 64 * 4, NULL));
+  g_assert_cmpmem(pixels, 64 * 64 * 4, at_once.pixels, 64 * 64 * 4);
+  g_assert_false(spore_renderer_is_drawn(bench.renderer, 0)); /* and none is left */
+  picture_clear(&at_once);
+  bench_close(&bench);
+}
+
 static Picture draw_clipped(const Bench *bench, const SporeClip *clip, gboolean antialias) {
   const SporeCamera camera = straight_camera(0.3);
   const SporeRenderOptions options = {.width = 200, .height = 150, .antialias = antialias, .clip = *clip};
@@ -364,6 +386,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/tint", test_tint);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
+  g_test_add_func("/render/renderer/begun-and-read", test_begun_and_read);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/handles", test_handles);

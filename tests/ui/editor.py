@@ -255,6 +255,13 @@ class Editor:
         """The entry that a combo box shows."""
         return self.atspi.Selection.get_selected_child(combo, 0).get_name()
 
+    def drawn_view(self):
+        """The viewport, as soon as its picture shows what is there by now."""
+        def view():
+            found = self.find(".*", "^Viewport$")
+            return found if not found.get_description() else None
+        return wait(view, "the picture to be drawn")
+
     def row(self, name):
         """Outliner row of that name, or None."""
         return self.look("table cell", f"^{re.escape(name)}$")

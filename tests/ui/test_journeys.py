@@ -634,7 +634,7 @@ def picture_of_view(editor, top=60):
     import gi
     gi.require_version("Gdk", "3.0")
     from gi.repository import Gdk
-    x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+    x, y, width, height = editor.place(editor.drawn_view())
     picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y + top, width, height - 140 - top)
     return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 140 - top
 
@@ -653,6 +653,7 @@ def picture_of(editor, widget):
     import gi
     gi.require_version("Gdk", "3.0")
     from gi.repository import Gdk
+    editor.drawn_view()
     return Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), *editor.place(widget)).get_pixels()
 
 

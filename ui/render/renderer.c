@@ -16,8 +16,14 @@ struct SporeRenderer {
   SporeTarget screen;  /* what is read back */
   SporeTarget sampled; /* what is drawn into when the hardware takes several samples */
   SporePicture picture;
+  GLsync begun; /* passed when the picture that was begun is drawn; NULL: none was */
   int samples, largest;
 };
+
+static void forget_begun(SporeRenderer *renderer) {
+  if (renderer->begun) glDeleteSync(renderer->begun);
+  renderer->begun = NULL;
+}
 
 SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error) {
   if (!spore_offscreen_make_current(offscreen)) {
@@ -55,6 +61,7 @@ void spore_renderer_free(SporeRenderer *renderer) {
   spore_target_clear(&renderer->screen);
   spore_target_clear(&renderer->sampled);
   spore_picture_clear(&renderer->picture);
+  forget_begun(renderer);
   glDeleteBuffers(1, &renderer->canvas.block);
   glDeleteVertexArrays(1, &renderer->canvas.screen_array);
   g_ptr_array_free(renderer->canvas.drawables, TRUE);
@@ -250,7 +257,45 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, co
   return TRUE;
 }
 
-static gboolean read_back(int width, int height, guint8 *pixels, gsize stride, GError **error) {
+static gboolean lost_context(GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
+                           _("the OpenGL context was lost; it was expected to last; start again"));
+}
+
+gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                              GError **error) {
+  int width = options->width, height = options->height, largest = MIN(renderer->largest, LARGEST_PICTURE);
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, _("picture size"),
+                             _("%d x %d pixels cannot be drawn; 1 to %d each way was expected; ask for another size"),
+                             width, height, largest);
+  if (!spore_offscreen_make_current(renderer->offscreen)) return lost_context(error);
+  forget_begun(renderer);
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  if (options->grid) spore_grid_update(renderer->canvas.grid, camera);
+  set_state();
+  if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
+    return FALSE;
+  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options,
+                                                           &renderer->screen, renderer->largest, error)
+                                      : draw_fast(renderer, camera, options, error);
+  if (drawn) renderer->begun = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  return drawn;
+}
+
+gboolean spore_renderer_is_drawn(SporeRenderer *renderer, guint wait_ms) {
+  if (!renderer->begun || !spore_offscreen_make_current(renderer->offscreen)) return FALSE;
+  return glClientWaitSync(renderer->begun, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)wait_ms * 1000000) !=
+         GL_TIMEOUT_EXPIRED; /* a wait that failed is told by what reads */
+}
+
+gboolean spore_renderer_read(SporeRenderer *renderer, guint8 *pixels, gsize stride, GError **error) {
+  int width = renderer->screen.width, height = renderer->screen.height;
+  g_return_val_if_fail(renderer->begun && stride >= 4 * (gsize)width && stride % 4 == 0, FALSE);
+  if (!spore_offscreen_make_current(renderer->offscreen)) return lost_context(error);
+  forget_begun(renderer);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer->screen.framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glPixelStorei(GL_PACK_ROW_LENGTH, (GLint)(stride / 4));
   glReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels);
@@ -265,23 +310,5 @@ static gboolean read_back(int width, int height, guint8 *pixels, gsize stride, G
 
 gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
                              guint8 *pixels, gsize stride, GError **error) {
-  int width = options->width, height = options->height, largest = MIN(renderer->largest, LARGEST_PICTURE);
-  if (width < 1 || height < 1 || width > largest || height > largest)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, _("picture size"),
-                             _("%d x %d pixels cannot be drawn; 1 to %d each way was expected; ask for another size"),
-                             width, height, largest);
-  g_return_val_if_fail(stride >= 4 * (gsize)width && stride % 4 == 0, FALSE);
-  if (!spore_offscreen_make_current(renderer->offscreen))
-    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
-                             _("the OpenGL context was lost; it was expected to last; start again"));
-  while (glGetError() != GL_NO_ERROR) {
-  }
-  if (options->grid) spore_grid_update(renderer->canvas.grid, camera);
-  set_state();
-  if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
-    return FALSE;
-  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options,
-                                                           &renderer->screen, renderer->largest, error)
-                                      : draw_fast(renderer, camera, options, error);
-  return drawn && read_back(width, height, pixels, stride, error);
+  return spore_renderer_begin(renderer, camera, options, error) && spore_renderer_read(renderer, pixels, stride, error);
 }

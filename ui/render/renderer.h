@@ -102,7 +102,16 @@ typedef struct SporeRenderOptions {
   gboolean antialias;
   SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;
-/* Draws and reads back: pixels is height rows of `stride` bytes, top first, as CAIRO_FORMAT_RGB24 (native BGRx). */
+/* Begins a picture, which the driver draws while the caller goes on. What was begun before and not read is forgotten.
+ */
+gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                              GError **error);
+/* Whether the picture that was begun is drawn; waits for that for at most so long. FALSE: none was begun. */
+gboolean spore_renderer_is_drawn(SporeRenderer *renderer, guint wait_ms);
+/* Reads back the picture that was begun, and waits for it: pixels is height rows of `stride` bytes, top first, as
+ * CAIRO_FORMAT_RGB24 (native BGRx). */
+gboolean spore_renderer_read(SporeRenderer *renderer, guint8 *pixels, gsize stride, GError **error);
+/* Draws and reads back. */
 gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
                              guint8 *pixels, gsize stride, GError **error);
 

@@ -21,11 +21,21 @@ typedef enum {
   DRAG_PORT
 } SporeDrag;
 
-/* The pixels of a view. */
+/* The picture of a view. */
 typedef struct SporeViewportPicture {
-  cairo_surface_t *pixels;
-  gboolean stale; /* the pixels are out of date */
+  cairo_surface_t *pixels; /* the last that was drawn; NULL: none was */
+  SporeCamera camera;      /* from which they were drawn */
+  gboolean stale;          /* they are out of date */
 } SporeViewportPicture;
+
+/* The picture that the renderer draws while the window goes on. */
+typedef struct SporeViewportDrawing {
+  SporeViewportPicture *of; /* NULL: none is being drawn */
+  SporeCamera camera;
+  int width, height; /* pixels */
+  gint64 since;
+  guint look; /* source that looks whether it is drawn */
+} SporeViewportDrawing;
 
 struct _SporeViewport {
   GtkOverlay parent;
@@ -80,6 +90,8 @@ struct _SporeViewport {
   SporeStage *stage;
   char *renderer_name;
   SporeViewportPicture picture, second_picture;
+  SporeViewportDrawing drawing;
+  gboolean told_drawing; /* to who asks for the view's description */
   gboolean second_on;
   guint rebuild, tick;
   gint64 hud_clock;
@@ -109,6 +121,8 @@ struct _SporeViewport {
 
 /* spore-viewport-view.c: camera, candidate, welcome. */
 void spore_viewport_redraw(SporeViewport *self);
+/* Tells assistive technology whether the view shows what is there by now. */
+void spore_viewport_tell_drawing(SporeViewport *self);
 /* From where a scene is looked at that has no camera; its whole is not framed yet. */
 SporeCamera spore_viewport_beginning(void);
 /* TRUE: there is a body, or a candidate that stands for itself. */
@@ -144,6 +158,8 @@ gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, doub
 /* Draws the camera's picture where it is stale, and paints it over the area. There is a renderer. */
 void spore_viewport_paint(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera,
                           GtkWidget *area, cairo_t *cr);
+/* What is being drawn is not wanted any more, or the renderer is needed for something else. */
+void spore_viewport_drop_drawing(SporeViewport *self);
 /* Signal handler of the second view's drawing area. */
 gboolean spore_viewport_draw_second(GtkWidget *area, cairo_t *cr, SporeViewport *self);
 /* Its size follows that of the large picture. */

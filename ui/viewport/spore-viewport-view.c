@@ -32,11 +32,21 @@ static void name_views(SporeViewport *self) {
   atk_object_set_name(gtk_widget_get_accessible(self->second), second);
 }
 
+void spore_viewport_tell_drawing(SporeViewport *self) {
+  gboolean second = self->second_picture.stale && gtk_widget_get_mapped(self->second_area);
+  gboolean late = self->rebuild || self->picture.stale || second || self->drawing.of;
+  gboolean drawing = self->renderer && late;
+  if (drawing == self->told_drawing) return;
+  self->told_drawing = drawing;
+  atk_object_set_description(gtk_widget_get_accessible(self->area), drawing ? _("The picture is being drawn") : "");
+}
+
 void spore_viewport_redraw(SporeViewport *self) {
   self->picture.stale = self->second_picture.stale = TRUE;
   gtk_widget_queue_draw(self->area);
   if (self->second_on || gtk_widget_get_visible(self->second)) name_views(self);
   if (self->second_on) gtk_widget_queue_draw(self->second_area);
+  spore_viewport_tell_drawing(self);
 }
 
 gboolean spore_viewport_has_anything(SporeViewport *self) {

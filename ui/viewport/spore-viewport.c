@@ -67,7 +67,10 @@ static gboolean rebuild(gpointer data) {
   spore_viewport_show_welcome(self);
   /* The run before goes on until the edited one is prepared; the stage is of its world till then. */
   gboolean outdated = simulation_of(self) && spore_player_is_making(self->player);
-  if (!self->stage || outdated) return G_SOURCE_REMOVE;
+  if (!self->stage || outdated) {
+    spore_viewport_tell_drawing(self);
+    return G_SOURCE_REMOVE;
+  }
   spore_stage_set_hidden(self->stage, self->hidden);
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
@@ -83,6 +86,7 @@ static gboolean rebuild(gpointer data) {
 /* After the panels, in a pass of its own, and before anything is drawn. */
 static void queue_rebuild(SporeViewport *self) {
   if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE + 5, rebuild, self, NULL);
+  spore_viewport_tell_drawing(self);
 }
 
 static void ensure_stage(SporeViewport *self) {
@@ -98,10 +102,9 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   int width = gtk_widget_get_allocated_width(area), height = gtk_widget_get_allocated_height(area);
   ensure_stage(self);
   if (!self->renderer) return FALSE;
-  gboolean stale = self->picture.stale;
-  gint64 start = g_get_monotonic_time();
   spore_viewport_paint(self, &self->picture, &self->camera, area, cr);
-  if (stale) self->draw_ms = (double)(g_get_monotonic_time() - start) / 1000;
+  SporeCamera now = self->camera;
+  if (self->picture.pixels) self->camera = self->picture.camera; /* what lies over the picture fits to it */
   spore_viewport_overlay_draw(self, cr, width, height);
   spore_viewport_links_draw(self, cr);
   spore_viewport_ports_draw(self, cr);
@@ -110,6 +113,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   spore_viewport_places_draw(self, cr);
   spore_viewport_gizmo_draw(self, cr);
   spore_viewport_measures_draw(self, cr);
+  self->camera = now;
   return FALSE;
 }
 
@@ -120,6 +124,8 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
                                 .clip = spore_viewport_clip(self)};
   gsize stride = (gsize)options.width * 4;
   ensure_stage(self);
+  spore_viewport_drop_drawing(self);
+  spore_viewport_redraw(self); /* what was being drawn */
   if (!self->renderer)
     return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, file, "%s",
                              _("the scene cannot be drawn on this machine; the view says why"));
@@ -327,6 +333,7 @@ const char *spore_viewport_get_renderer(SporeViewport *self) {
 static void spore_viewport_dispose(GObject *object) {
   SporeViewport *self = SPORE_VIEWPORT(object);
   release_document(self);
+  spore_viewport_drop_drawing(self);
   g_clear_pointer(&self->renderer, spore_renderer_free);
   g_clear_pointer(&self->offscreen, spore_offscreen_free);
   g_clear_pointer(&self->picture.pixels, cairo_surface_destroy);
