@@ -17,9 +17,8 @@ static const char *const wet[] = {"stiffness", "60", "damping", "0.02", "frictio
 static const char *const jetting[] = {"stiffness", "150", "damping", "0.05", "friction", "0.2", NULL};
 static const char *const bleeding[] = {"rate", "4", "speed", "0.05", NULL};
 static const char *const wound[] = {"rate", "4", "speed", "0.05", "trigger", "wound", NULL};
-/* Laparoscopy needs an irrigator of 1 l/min at least
- * (www.78stepshealth.us/laparoscopic-surgery/irrigationsuction.html); the bore is that of the tube that the library
- * draws. */
+/* Laparoscopy needs an irrigator of 1 l/min at least (78 Steps Health Journal, Laparoscopic surgery:
+ * irrigation/suction); the bore is that of the tube that the library draws. */
 static const char *const pouring[] = {"flow", "1.667e-5", "radius", "0.00175", "trigger", "second_button", NULL};
 static const char *const rising[] = {"rate", "70", "speed", "0.03", "radius", "0.0015", NULL};
 static const char *const coagulation[] = {"rate",   "70",      "speed",       "0.03", "radius",

@@ -1,5 +1,5 @@
 /* Reads names of labels from the header of an NRRD file, as 3D Slicer writes its segmentations: "Segment0_Name:=liver"
- * and "Segment0_LabelValue:=3" (https://slicer.readthedocs.io, Segmentations: file format). */
+ * and "Segment0_LabelValue:=3" (3D Slicer's manual, Segmentations: file format). */
 #include <glib/gi18n.h>
 #include <string.h>
 
