@@ -1639,8 +1639,10 @@ def a_needle_and_a_suction_tube_of_the_library_work():
 
 
 @check
+@alike
+@long_run
 def an_irrigator_pours_and_draws_away():
-    """Its second button pours a litre a minute, its first one draws the water away again; the volumes are told apart from the blood's. Water that does not wash moves alike, and water as particles comes as much."""
+    """Its second button pours a litre a minute, its first one draws the water away again; it pushes the blood, and the volumes are told apart from the blood's. Water that does not wash moves alike, and water as particles comes as much."""
     file("rinse/drop.off", shapes.off(*shapes.sphere(radius=0.005)))
     file("rinse/floor.spheres", "".join(f"{x / 200} 0 {z / 200} 0.004\n" for x in range(-8, 9) for z in range(-8, 9)))
     scene = file("rinse/rinse.spore", '<spore version="1.0"><solver time_step="0.004"/><assets><mesh name="drop" file="drop.off"/>'
@@ -1653,6 +1655,7 @@ def an_irrigator_pours_and_draws_away():
     still = (0, 0, 0)
     paths = {buttons: [(0, still, 0), (0.1, still, 0), (0.101, still, buttons), (0.4, still, buttons)] for buttons in (0, 1, 2)}
     paths["after"] = paths[2] + [(0.401, still, 0), (0.5, (0, -0.018, 0), 1), (1.2, (0, -0.018, 0), 1)]
+    moved = {}
     for buttons, path in paths.items():
         track = led(scene, "irrigator_1", path)
         done = report("run", scene, "--input", track, "--time", path[-1][0])
@@ -1660,8 +1663,10 @@ def an_irrigator_pours_and_draws_away():
         poured = 0 if buttons in (0, 1) else 0.3 * 1000 / 60
         assert abs(water["poured_ml"] - poured) < 0.13 and abs(water["present_ml"] + water["sucked_ml"] - water["poured_ml"]) < 1e-9, (buttons, water)
         assert (water["sucked_ml"] > 0.1) == (buttons == "after"), (buttons, water)
+        moved[buttons] = {one["name"]: one["hash"] for one in done["bodies"]}["blood"]
         assert blood["name"] == "blood" and blood["poured_ml"] == 0, blood
         assert abs(blood["present_ml"] + blood["sucked_ml"] - 0.52) < 0.06, blood
+    assert moved[0] == moved[1] != moved[2], "the water pushes the blood"
     plain = report("run", scene, "--input", track, "--time", 0.3)
     dry = report("run", scene, "--input", track, "--time", 0.3, "--set", "bodies/water/mechanical/lennard_jones/stain=0")
     assert dry["state_hash"] == plain["state_hash"] and plain["fluids"] == dry["fluids"]
