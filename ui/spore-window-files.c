@@ -149,6 +149,10 @@ char *spore_window_choose_to_save(SporeWindow *self, const char *title, const ch
                         extension);
 }
 
+char *spore_window_choose_to_open(SporeWindow *self, const char *title, const char *patterns, const char *kind) {
+  return choose_file(self, GTK_FILE_CHOOSER_ACTION_OPEN, title, _("_Open"), patterns, kind, NULL);
+}
+
 /* Saving. */
 
 static gboolean save_to(SporeWindow *self, const char *file) {
@@ -252,8 +256,7 @@ static void act_open(GSimpleAction *action, GVariant *parameter, gpointer data) 
 }
 
 static void act_open_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = choose_file(data, GTK_FILE_CHOOSER_ACTION_OPEN, _("Open scene"), _("_Open"),
-                                      "*.spore *.sporez", _("SPORE scenes"), NULL);
+  g_autofree char *file = spore_window_choose_to_open(data, _("Open scene"), "*.spore *.sporez", _("SPORE scenes"));
   if (file) spore_window_open(data, file);
 }
 

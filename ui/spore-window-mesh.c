@@ -1,4 +1,5 @@
-/* Meshes: importing them, the operations on those that are in the scene, and how well they follow what moves them. */
+/* Meshes: importing them, the operations on those that are in the scene, pictures laid over them, and how well they
+ * follow what moves them. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "ui/dialogs/spore-mesh-dialog.h"
 #include "core/author/edits.h"
 #include "core/author/mesh_edits.h"
+#include "core/author/texture_edits.h"
 #include "ui/jobs/works.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/spore-window-private.h"
@@ -182,6 +184,37 @@ static void act_change_mesh_dialog(GSimpleAction *action, GVariant *parameter, g
   gtk_window_present(GTK_WINDOW(dialog));
 }
 
+/* Pictures. */
+
+static void picture_found(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  g_autoptr(GError) failure = NULL;
+  if (spore_window_failed(self, error) || !self->document) return;
+  if (!spore_texture_work_apply(data, spore_editor_document_get(self->document), &failure))
+    spore_window_failed(self, failure);
+}
+
+static void lay_picture(SporeWindow *self, const char *file) {
+  SporeObject *body = spore_window_body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  SporeTextureWork *work =
+      body ? spore_texture_work_new(spore_editor_document_get(self->document), body, file, &error) : NULL;
+  if (work)
+    spore_window_start_job(self, _("Laying a picture"), spore_texture_work_run, work, spore_texture_work_free,
+                           picture_found);
+  else if (error) spore_window_failed(self, error);
+}
+
+static void act_lay_picture(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  lay_picture(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_lay_picture_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = spore_window_choose_to_open(
+      data, _("Choose a picture for the organ"), "*.png *.PNG *.jpg *.JPG *.jpeg *.JPEG", _("Pictures: PNG, JPEG"));
+  if (file) lay_picture(data, file);
+}
+
 /* Mappings. */
 
 static void mapping_measured(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
@@ -217,6 +250,8 @@ void spore_window_add_mesh_actions(SporeWindow *self) {
       {"import-dialog-with", act_import_dialog_with, "as"},
       {"change-mesh", act_change_mesh, "(sd)"},
       {"change-mesh-dialog", act_change_mesh_dialog, "s"},
+      {"lay-picture", act_lay_picture, "s"},
+      {"lay-picture-dialog", act_lay_picture_dialog},
       {"measure-mapping", act_measure_mapping},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -128,6 +128,8 @@ static const struct {
     {"import-dialog-with", IDLE},
     {"change-mesh", IDLE | BODIES},
     {"change-mesh-dialog", IDLE | BODIES},
+    {"lay-picture", IDLE | BODIES},
+    {"lay-picture-dialog", IDLE | BODIES},
     {"measure-mapping", IDLE | BODIES},
     {"preview-labels", JOBLESS},
     {"preview-labels-dialog", JOBLESS},

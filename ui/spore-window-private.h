@@ -190,6 +190,8 @@ void spore_window_recover(SporeWindow *self);
  * name to begin with. g_free; NULL: the user went back. */
 char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,
                                   const char *proposed);
+/* Asks for a file to read. title, kind: translated; patterns: with blanks between. g_free; NULL: the user went back. */
+char *spore_window_choose_to_open(SporeWindow *self, const char *title, const char *patterns, const char *kind);
 
 /* spore-window-templates.c: scenes to begin with. */
 void spore_window_add_template_actions(SporeWindow *self);

@@ -59,6 +59,7 @@ static const struct {
     {"win.cancel-job", N_("Cancel what is being worked on")},
     {"win.pick-back", N_("Picking: one click back")},
     {"win.pick-done", N_("Picking: the rest by itself")},
+    {"win.lay-picture-dialog", N_("Lay a picture over the organ…")},
     {"win.measure-mapping", N_("Measure how the surface follows the mesh")},
     {"win.measure-accuracy", N_("Measure the accuracy")},
     {"win.apply-point", N_("Apply the chosen point of the accuracy")},

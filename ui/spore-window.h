@@ -25,7 +25,7 @@
  *               surface; preview-labels [s path], preview-labels-dialog, make-labels; pick-places (state),
  *               automatic-places; apply-generated, cancel-job
  *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
- *               measure-mapping: of the selected body
+ *               lay-picture [s path], lay-picture-dialog: over the selected body; measure-mapping: of it
  *   study       measure-accuracy, choose-point [u index in the report], apply-point, save-study [s path, which ends in
  *               .html, .csv or .svg], save-study-dialog [s ".html", ".csv" or ".svg"], save-plan [s path],
  *               save-plan-dialog

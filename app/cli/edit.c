@@ -14,14 +14,15 @@
 #include "core/author/port_edits.h"
 #include "core/author/removal.h"
 #include "core/author/soft_edits.h"
+#include "core/author/texture_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 #include "core/scene/watch_place.h"
 
 /* The options of the command line. */
 typedef struct Request {
-  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port, *patient,
-      *output;
+  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port, **texture,
+      *patient, *output;
   SporeCliPlacing placing;
   gboolean probe;
 } Request;
@@ -235,6 +236,22 @@ static gboolean copy(SporeDocument *document, const char *text, GPtrArray *chang
   return copies != NULL;
 }
 
+/* BODY=FILE */
+static gboolean lay_picture(SporeCli *cli, SporeDocument *document, const char *text, GPtrArray *changed,
+                            GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, "=", 2);
+  if (!parts[0] || !parts[1])
+    return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                             _("this is no body and a picture; expected BODY=FILE, such as liver=liver.png"));
+  SporeObject *body = spore_cli_find_body(document, "--texture", parts[0], error);
+  SporeTextureWork *work = body ? spore_texture_work_new(document, body, parts[1], error) : NULL;
+  gboolean done = work && spore_texture_work_run(work, spore_cli_progress(cli), error) &&
+                  spore_texture_work_apply(work, document, error);
+  if (done) note(changed, spore_object_child_of(body, "visual"));
+  g_clear_pointer(&work, spore_texture_work_free);
+  return done;
+}
+
 /* PORT@PLACE */
 static SporeObject *move_port(SporeDocument *document, const char *text, GError **error) {
   g_auto(GStrv) parts = g_strsplit(text, "@", 2);
@@ -280,6 +297,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
     if (!added) return FALSE;
     note(changed, added);
   }
+  for (char **text = request->texture; text && *text; text++)
+    if (!lay_picture(cli, document, *text, changed, error)) return FALSE;
   if (!mirror_all(document, request->mirror, changed, error)) return FALSE;
   for (char **text = request->copy; text && *text; text++)
     if (!copy(document, *text, changed, error)) return FALSE;
@@ -370,6 +389,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
           "irrigator, bag, endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
+      {"texture", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.texture,
+       N_("Lay a picture, PNG or JPEG, over an organ whose mesh says where its corners lie in one (UV), before it is "
+          "mirrored or copied: liver=liver.png (may be repeated)"),
+       "BODY=FILE"},
       {"mirror", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.mirror,
        N_("Add a mirrored copy of an organ, across that axis in the middle of the scene, with what ties it to the "
           "scene: "
@@ -415,13 +438,13 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.delete || request.add || request.soft || request.level || request.set || request.patient ||
                  request.hold || request.instrument || request.fluid || request.mirror || request.copy ||
-                 request.port || request.placing.move || request.placing.turn || request.placing.scale ||
-                 request.placing.align || request.probe;
+                 request.port || request.texture || request.placing.move || request.placing.turn ||
+                 request.placing.scale || request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --delete, --add, --soft, --level, --set, --patient, --hold, "
-          "--instrument, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align or --probe; give one of "
-          "them"));
+          "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align or --probe; "
+          "give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);
@@ -432,6 +455,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.hold);
   g_strfreev(request.fluid);
   g_strfreev(request.mirror);
+  g_strfreev(request.texture);
   g_strfreev(request.copy);
   g_strfreev(request.instrument);
   g_strfreev(request.port);

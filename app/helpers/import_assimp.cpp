@@ -93,6 +93,7 @@ struct Request {
   std::vector<SporeImportMaterial> materials;
   std::vector<SporeImportPicture> pictures;
   std::vector<const char *> bytes; /* of each picture */
+  size_t worn = 0;                 /* as in the head */
 };
 
 /* A picture in the file, or the number of one beside it, from 1; neither: none. */
@@ -193,7 +194,8 @@ Source named_by(const aiScene &scene, const aiMesh &mesh, const Request &request
   const aiMaterial *material = material_of(scene, mesh);
   aiString path;
   *dress = SPORE_IMPORT_BARE;
-  if (said) source.beside = said->picture;
+  if (request.worn) source.beside = request.worn;
+  else if (said) source.beside = said->picture;
   else if (material && material->GetTexture(aiTextureType_BASE_COLOR, 0, &path) == AI_SUCCESS) {
     *dress = SPORE_IMPORT_UNKNOWN;
     source.inside = scene.GetEmbeddedTexture(path.C_Str());
@@ -356,6 +358,7 @@ Request take_apart(const SporeImportRequest &head, const char *rest) {
   }
   request.content = rest;
   request.size = head.size;
+  request.worn = head.worn;
   const char *at = request.content + head.size;
   for (const SporeImportPicture &picture : request.pictures) {
     request.bytes.push_back(at);

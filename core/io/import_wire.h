@@ -13,6 +13,7 @@ typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */
   uint64_t size;   /* of the file */
   uint64_t material_count, picture_count;
+  uint64_t worn; /* number from 1 of the picture that all of it wears, whatever its materials say; 0: as they say */
 } SporeImportRequest;
 
 /* A material of OBJ, which is described in a file beside the mesh. */

@@ -52,6 +52,14 @@ guint spore_mesh_beside_picture(SporeMeshBeside *beside, const char *file, const
   return beside->pictures->len;
 }
 
+void spore_mesh_beside_wear(SporeMeshBeside *beside, GBytes *picture) {
+  SporeMeshPicture *worn = g_new0(SporeMeshPicture, 1);
+  worn->name = g_strdup("");
+  worn->content = g_bytes_ref(picture);
+  g_ptr_array_add(beside->pictures, worn);
+  beside->worn = beside->pictures->len;
+}
+
 char *spore_mesh_beside_reason(const char *file, const GError *error) {
   gsize length = strlen(file);
   gboolean placed = g_str_has_prefix(error->message, file) && g_str_has_prefix(error->message + length, ": ");

@@ -25,6 +25,7 @@ typedef struct SporeMeshBeside {
   GPtrArray *materials; /* of SporeMeshMaterial */
   char *reason; /* why materials cannot be read: "what; remedy", translated; NULL: they are, or there are none */
   gsize room;   /* bytes that more pictures may have */
+  guint worn;   /* number in `pictures` that all of the mesh wears, from 1; 0: what its materials say */
 } SporeMeshBeside;
 
 /* Reads what the content of `file` names: regular files in its folder or below (core/io/beside.h), a picture of at most
@@ -33,6 +34,9 @@ SporeMeshBeside *spore_mesh_beside_new(void);
 SporeMeshBeside *spore_mesh_beside_read(const char *file, GBytes *content);
 void spore_mesh_beside_free(SporeMeshBeside *beside);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeMeshBeside, spore_mesh_beside_free)
+
+/* Lets all of the mesh wear a picture, PNG or JPEG. */
+void spore_mesh_beside_wear(SporeMeshBeside *beside, GBytes *picture);
 
 /* For its parts: reads the picture whose file is `path`, once. Its number, from 1; 0: there are too many. */
 guint spore_mesh_beside_picture(SporeMeshBeside *beside, const char *file, const char *name, const char *path);

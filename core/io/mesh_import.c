@@ -195,7 +195,11 @@ static void append_picture(GByteArray *request, const SporeMeshPicture *from) {
 /* What stands before the bytes of the file. *pictures: bytes of all pictures. */
 static GByteArray *begin_request(SporeMeshFormat format, gsize size, const SporeMeshBeside *beside, gsize *pictures) {
   GByteArray *request = g_byte_array_new();
-  SporeImportRequest head = {format, size, beside ? beside->materials->len : 0, beside ? beside->pictures->len : 0};
+  SporeImportRequest head = {format, size};
+  if (beside) {
+    head.material_count = beside->materials->len, head.picture_count = beside->pictures->len;
+    head.worn = beside->worn;
+  }
   *pictures = 0;
   g_byte_array_append(request, (const guint8 *)&head, sizeof head);
   for (guint64 i = 0; i < head.material_count; i++) append_material(request, beside->materials->pdata[i]);
@@ -365,8 +369,7 @@ static const char *why_undressed(guint32 dress) {
     return _("its materials wear different pictures, or one on a part of it; expected one picture; give each picture a "
              "mesh of its own");
   case SPORE_IMPORT_UNPLACED:
-    return _("it names a picture, and its corners have no places in the picture (UV); expected them; unwrap the mesh, "
-             "and export it again");
+    return _("its corners have no places in its picture (UV); expected them; unwrap the mesh, and export it again");
   case SPORE_IMPORT_UNKNOWN:
     return _("its picture is not in the file, or is too large; expected one of at most 64 MiB; export it as GLB with "
              "its picture");

@@ -453,6 +453,22 @@ def import_takes_pictures_beside_the_mesh():
     (WORK / "obj/worn.mtl").unlink()
     found = report("import", "obj/worn.obj", "-o", "obj/b/b.spore")["diagnostics"]
     assert any("worn.mtl" in d["message"] for d in found) and visual_of("obj/b/b.spore").get("colour") != "0.6 0.6 0.6", found
+    scene = WORK / "obj/b/b.spore"
+    assert report("edit", scene, "--texture", "worn=" + str(WORK / "obj/pictures/skin a.png"))["changed"] == ["bodies/worn/visual"]
+    visual = visual_of(scene)
+    assert (scene.parent / visual.get("texture")).read_bytes() == picture and visual.get("colour") == "1 1 1", visual.attrib
+    assert [float(word) for word in (scene.parent / visual.get("texture_places")).read_text().split()[2:]] == places
+    (scene.parent / visual.get("texture")).unlink()  # and is found again
+    spore("edit", scene, "--texture", "worn=" + str(WORK / "obj/pictures/skin a.png"))
+    assert not report("check", scene)["diagnostics"] and (scene.parent / visual.get("texture")).exists()
+    if "jpeg" in FEATURES:
+        spore("edit", scene, "--texture", "worn=" + str(file("obj/photo.jpg", shapes.PHOTOGRAPH)))
+        assert (scene.parent / visual_of(scene).get("texture")).read_bytes()[:4] == b"\x89PNG"
+    file("obj/bare.off", shapes.off(vertices, triangles))
+    spore("import", WORK / "obj/bare.off", "--add", "-o", scene)
+    for wrong, words in (("bare=" + str(WORK / "obj/pictures/skin a.png"), "no places in a picture"), (f"worn={WORK}/obj/worn.obj", "no PNG"),
+                         (f"worn={WORK}/none.png", "cannot be read"), ("worn", "BODY=FILE"), ("none=a.png", "no body")):
+        refuses("edit", scene, "--texture", wrong, says=[words])
     text = json.loads(shapes.textured_gltf(vertices, triangles, picture))
     text["images"] = [{"uri": "pictures/skin%20a.png"}]
     file("obj/worn.gltf", json.dumps(text))

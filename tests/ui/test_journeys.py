@@ -121,7 +121,7 @@ def templates_to_begin_with():
 
 @check
 def import_undo_redo():
-    """a mesh is imported as one step that can be undone and redone."""
+    """a mesh is imported as one step that can be undone and redone, and so is a picture that is laid over it."""
     with start() as editor:
         import_ball(editor)
         editor.find("label", r"528 triangles, 60 × 60 × \d+.* mm, closed")
@@ -130,6 +130,38 @@ def import_undo_redo():
         assert not editor.enabled("undo")
         editor.act("redo")
         ui.wait(lambda: editor.row("ball"), "the organ to come back")
+        editor.act("select", "s", "bodies/ball")
+        lay_a_picture(editor)
+
+
+def green(editor):
+    """Pixels of the view in the colour of a picture that is laid over an organ."""
+    pixels, step, row, width, height = picture_of_view(editor)
+    return sum(pixels[at + 1] > pixels[at] + 40 and pixels[at + 1] > pixels[at + 2] + 40
+               for line in range(0, height, 4) for at in range(line * row, line * row + width * step, 4 * step))
+
+
+def lay_a_picture(editor):
+    """A mesh without places for a picture takes none, and that is said; one with places wears the picture, until that is undone."""
+    picture = folder("meshes") / "green.png"
+    picture.write_bytes(shapes.png(4, 4, lambda x, y: (40, 200, 40)))
+    editor.find("push button", "^Choose a picture…$", showing=False)
+    editor.act("lay-picture", "s", str(picture))
+    ui.wait(lambda: re.search(r"no places in a picture \(UV\)|reads OFF and VTK alone", editor.message() or ""), "the refusal")
+    if "assimp" not in FEATURES:
+        return
+    worn = folder("meshes") / "worn.obj"
+    worn.write_text(shapes.worn_obj(*shapes.sphere(), "none.mtl", "skin"))
+    editor.act("undo")
+    editor.act("import", "(sss)", (str(worn), "m", "Y_UP"))
+    ui.wait(lambda: editor.row("worn"), "the organ")
+    assert not green(editor)
+    editor.act("lay-picture", "s", str(picture))
+    ui.wait(lambda: green(editor) > 100, "the picture on the organ")
+    keep_picture(editor, "textured")
+    assert 'texture="worn-' in saved(editor, "textured")
+    editor.act("undo")
+    ui.wait(lambda: not green(editor), "the picture to go")
 
 
 def inside(editor, dialog, role, name):

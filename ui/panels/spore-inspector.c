@@ -248,6 +248,11 @@ static void add_visual(SporeInspector *self, SporeObject *body, const char *path
   GtkBox *box = spore_section_list_add(sections_of(self), _("Visual mesh"), path, NULL);
   if (!box) return;
   g_set_weak_pointer(&self->mesh_facts, add_fact(box));
+  GtkWidget *lay = spore_action_button_new(_("Choose a picture…"), "win.lay-picture-dialog",
+                                           _("Lay a PNG or JPEG over the organ, whose mesh has to say where its "
+                                             "corners lie in one (UV)"));
+  gtk_widget_set_halign(lay, GTK_ALIGN_START);
+  gtk_container_add(GTK_CONTAINER(box), lay);
   add_unit(self, box, body, "visual");
 }
 
