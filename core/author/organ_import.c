@@ -33,7 +33,7 @@ static void free_file(SporeImportFile *file) {
 }
 
 static void clear_texture(SporeImportTexture *texture) {
-  g_bytes_unref(texture->picture);
+  g_clear_pointer(&texture->picture, g_bytes_unref);
   spore_triangle_mesh_clear(&texture->mesh);
   spore_free(texture->places);
 }
@@ -82,14 +82,15 @@ GBytes *spore_import_read_content(const char *file, GError **error) {
   return bytes ? g_bytes_new_take(bytes, size) : NULL;
 }
 
-/* The picture of a part with the mesh that wears it now, or NULL: it has none. NULL with a failure: no memory. */
+/* The picture of a part, or the places for one, with the mesh that wears it now; NULL: it has none. NULL with a
+ * failure: no memory. */
 static SporeImportTexture *texture_of(SporeMeshPart *part, SporeError *failure) {
-  if (!part->picture) return NULL;
+  if (!part->places) return NULL;
   SporeTriangleMesh mesh;
   if (!spore_triangle_mesh_copy(&mesh, &part->mesh, failure)) return NULL;
   SporeImportTexture *texture = g_rc_box_new0(SporeImportTexture);
   texture->mesh = mesh;
-  texture->picture = g_bytes_ref(part->picture);
+  texture->picture = part->picture ? g_bytes_ref(part->picture) : NULL;
   texture->places = g_steal_pointer(&part->places);
   return texture;
 }
@@ -221,7 +222,7 @@ static gboolean add_parts(Intake *intake, const SporeImportFile *file, const GPt
     const char *name = *part->name ? part->name : stem;
     SporeError failure = SPORE_ERROR_INIT;
     SporeImportTexture *texture = texture_of(part, &failure);
-    if (part->picture && !texture) done = spore_error_propagate(&failure, error);
+    if (part->places && !texture) done = spore_error_propagate(&failure, error);
     else if (division == SPORE_IMPORT_PIECES || (division == SPORE_IMPORT_PARTS && parts->len == 1))
       done = add_pieces(intake, name, file, part, texture, error);
     else add_body(intake, name, file, part, texture, &part->mesh, parts->len > 1);
@@ -349,21 +350,27 @@ static gboolean paint(SporeDocument *document, SporeObject *made, const SporeImp
   return !body->coloured || spore_edit_set_colour(document, made, body->colour, error);
 }
 
-/* Keeps the picture and the places of the body's corners beside the scene, named by their content. */
+static char *keep(SporeDocument *document, const SporeImportBody *body, const char *extension, GBytes *content) {
+  gsize size;
+  gconstpointer bytes = g_bytes_get_data(content, &size);
+  g_autofree char *name = spore_organ_name(body->name);
+  char *file = spore_content_file_name(name, extension, bytes, size);
+  spore_document_put_blob(document, file, content);
+  return file;
+}
+
+/* Keeps the picture and the places of the body's corners beside the scene, named by their content. An unchanged mesh
+ * has the places in its own file, for the day when a missing picture is found. */
 static gboolean lay(SporeDocument *document, SporeObject *made, const SporeImportBody *body, GError **error) {
   SporeObject *visual = (SporeObject *)spore_object_child_of(made, "visual");
-  if (!body->texture) return TRUE;
-  gsize size, picture_size;
-  gconstpointer picture = g_bytes_get_data(body->texture->picture, &picture_size);
+  if (!body->texture || (!body->texture->picture && !body->changed)) return TRUE;
+  gsize size;
   char *text = spore_texture_places_format(body->places, 3 * body->mesh.triangle_count, &size);
-  g_autoptr(GBytes) places = g_bytes_new_take(text, size);
-  g_autofree char *name = spore_organ_name(body->name);
-  g_autofree char *picture_file = spore_content_file_name(name, "png", picture, picture_size);
-  g_autofree char *places_file = spore_content_file_name(name, "places", text, size);
-  spore_document_put_blob(document, picture_file, body->texture->picture);
-  spore_document_put_blob(document, places_file, places);
-  return spore_document_set_text(document, visual, "texture", picture_file, error) &&
-         spore_document_set_text(document, visual, "texture_places", places_file, error);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  g_autofree char *places = keep(document, body, "places", content);
+  g_autofree char *picture = body->texture->picture ? keep(document, body, "png", body->texture->picture) : NULL;
+  return (!picture || spore_document_set_text(document, visual, "texture", picture, error)) &&
+         spore_document_set_text(document, visual, "texture_places", places, error);
 }
 
 static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {

@@ -41,7 +41,7 @@ typedef struct SporeImportFile {
 
 /* A picture and the mesh that wore it in the file, shared by the bodies that were made of the mesh. */
 typedef struct SporeImportTexture {
-  GBytes *picture; /* PNG */
+  GBytes *picture; /* PNG; NULL: it cannot be read, and the places are kept for another one */
   SporeTriangleMesh mesh;
   float *places; /* mesh.triangle_count x 3 x 2 */
 } SporeImportTexture;

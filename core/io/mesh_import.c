@@ -387,7 +387,8 @@ static char *why_undrawn(const RawPicture *picture) {
   return g_strdup(g_str_has_prefix(error->message, ": ") ? error->message + 2 : error->message);
 }
 
-/* Why the picture of the parts is not taken; NULL: it is, or there is none. *number: of the picture, from 1. g_free. */
+/* Why the picture of the parts is not taken; NULL: it is, or there is none. *number: of the picture that they all wear,
+ * from 1, or 0. g_free. */
 static char *why_untextured(const Raw *raw, const SporeImportPart *said, gboolean apart, guint32 *number) {
   guint32 dress = SPORE_IMPORT_BARE;
   gboolean alike = TRUE;
@@ -399,6 +400,7 @@ static char *why_untextured(const Raw *raw, const SporeImportPart *said, gboolea
     alike = alike && one->picture == *number;
   }
   if (dress == SPORE_IMPORT_BARE) return NULL;
+  if (!alike) *number = 0;
   if (!alike) return g_strdup(_("its parts wear different pictures; split it to have a body of each"));
   if (*number == 0) return g_strdup(why_undressed(dress));
   return why_undrawn(&g_array_index(raw->pictures, RawPicture, *number - 1));
@@ -417,7 +419,8 @@ static float *places_of_part(const Raw *raw, const guint32 *pieces, guint32 numb
 static gboolean take_texture(const Raw *raw, guint32 picture, const SporeTriangleMesh *rough, const float *places,
                              SporeMeshPart *part, SporeError *failure) {
   part->places = spore_texture_places_transfer(rough, places, &part->mesh, failure);
-  if (part->places) part->picture = g_bytes_ref(g_array_index(raw->pictures, RawPicture, picture - 1).content);
+  if (part->places && !part->untextured)
+    part->picture = g_bytes_ref(g_array_index(raw->pictures, RawPicture, picture - 1).content);
   return part->places != NULL;
 }
 
@@ -432,7 +435,7 @@ static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *piec
   part->group = g_utf8_make_valid(said && pieces ? said->group : "", -1);
   part->untextured = why_untextured(raw, said, pieces != NULL, &picture);
   take_colour(said, part);
-  if (part->untextured) picture = 0, part->coloured = false; /* the colour alone says little */
+  if (part->untextured) part->coloured = false; /* the colour alone says little */
   g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
   gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* validated before its indices are used */
   g_autofree float *places = done && picture ? places_of_part(raw, pieces, number) : NULL;

@@ -43,7 +43,8 @@ typedef struct SporeMeshPart {
   bool coloured;    /* the file says the colour */
   SporeTriangleMesh mesh;
   GBytes *picture;  /* PNG that all of it wears (core/scene/texture.h); NULL: none */
-  float *places;    /* then of the corners of the mesh's triangles in the picture, x 3 x 2; spore_free */
+  float *places;    /* of the corners of the mesh's triangles in the picture, also in one that cannot be read, x 3 x 2;
+                       spore_free; NULL: it wears none */
   char *untextured; /* why a picture that the file brings is not taken, translated; NULL: it brings none, or it is taken
                      */
 } SporeMeshPart;

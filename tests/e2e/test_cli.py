@@ -469,6 +469,11 @@ def import_takes_pictures_beside_the_mesh():
     for wrong, words in (("bare=" + str(WORK / "obj/pictures/skin a.png"), "no places in a picture"), (f"worn={WORK}/obj/worn.obj", "no PNG"),
                          (f"worn={WORK}/none.png", "cannot be read"), ("worn", "BODY=FILE"), ("none=a.png", "no body")):
         refuses("edit", scene, "--texture", wrong, says=[words])
+    file("obj/worn.mtl", described("later.png"))  # a mesh that changed keeps its places
+    found = report("import", "obj/worn.obj", "--triangles", 300, "-o", "obj/e/e.spore")["diagnostics"]
+    assert any("later.png" in d["message"] for d in found) and any("name a texture" in d["remedy"] for d in found), found
+    spore("edit", "obj/e/e.spore", "--texture", "worn=" + str(WORK / "obj/pictures/skin a.png"))
+    assert not report("check", "obj/e/e.spore")["diagnostics"]
     text = json.loads(shapes.textured_gltf(vertices, triangles, picture))
     text["images"] = [{"uri": "pictures/skin%20a.png"}]
     file("obj/worn.gltf", json.dumps(text))
