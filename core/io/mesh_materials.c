@@ -69,6 +69,13 @@ static char *path_of(const char *name) {
   return path;
 }
 
+/* A picture whose material says no colour is shown as it is. */
+static void take_white(SporeMeshMaterial *material) {
+  if (material->coloured) return;
+  material->colour[0] = material->colour[1] = material->colour[2] = 1;
+  material->coloured = true;
+}
+
 /* Kd with three numbers, or one for all. */
 static void read_colour(SporeMeshMaterial *material, const char *text) {
   double colour[3];
@@ -98,6 +105,7 @@ static void read_line(SporeMeshBeside *beside, const char *file, const char *fol
   if (!picture || !*material) return;
   g_autofree char *named = path_of(behind_options(picture)), *path = g_strconcat(folder, named, NULL);
   (*material)->picture = spore_mesh_beside_picture(beside, file, path, path);
+  take_white(*material);
 }
 
 void spore_mesh_beside_describe(SporeMeshBeside *beside, const char *file, const char *folder, const char *text,
@@ -124,6 +132,18 @@ static void read_materials(SporeMeshBeside *beside, const char *file, const char
   spore_mesh_beside_describe(beside, file, folder, text, size);
 }
 
+/* A line names one file, whose name may have blanks, or several. */
+static void read_libraries(SporeMeshBeside *beside, const char *file, const char *line) {
+  g_autofree char *folder = g_path_get_dirname(file), *whole = g_build_filename(folder, line, NULL);
+  if (!strchr(line, ' ') || g_file_test(whole, G_FILE_TEST_EXISTS)) {
+    read_materials(beside, file, line);
+    return;
+  }
+  g_auto(GStrv) names = g_strsplit(line, " ", -1);
+  for (char **name = names; *name; name++)
+    if (**name) read_materials(beside, file, *name);
+}
+
 void spore_mesh_beside_materials(SporeMeshBeside *beside, const char *file, const char *text, gsize size) {
   g_autoptr(GHashTable) known = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   const char *end = text + size;
@@ -133,6 +153,6 @@ void spore_mesh_beside_materials(SporeMeshBeside *beside, const char *file, cons
     g_autofree char *line = NULL;
     const char *name = next_line(&from, end, &line) ? behind(line, "mtllib") : NULL;
     char *path = name ? path_of(name) : NULL;
-    if (path && g_hash_table_add(known, path)) read_materials(beside, file, path);
+    if (path && g_hash_table_add(known, path)) read_libraries(beside, file, path);
   }
 }

@@ -385,7 +385,8 @@ def import_worn(folder):
     picture = shapes.png(16, 16, lambda x, y: (200, 16 * x, 16 * y))
     (folder / "skin.png").write_bytes(picture)
     (folder / "worn.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
-    (folder / "worn.obj").write_text(shapes.worn_obj(*shapes.sphere(), "worn.mtl", "skin"))
+    (folder / "other materials.mtl").write_text("newmtl other\n")
+    (folder / "worn.obj").write_text("mtllib other materials.mtl\nmtllib none.mtl worn.mtl\n" + shapes.worn_obj(*shapes.sphere(), "worn.mtl", "skin"))
     run(SPORE, "import", folder / "worn.obj", "-o", folder / "scene" / "worn.spore")
     run(SPORE, "edit", folder / "scene" / "worn.spore", "--set", "bodies/worn/role=passive", "--add", "bodies/worn/mechanical/mass_spring_net",
         "--set", "bodies/worn/mechanical/geometry=worn")
@@ -405,6 +406,7 @@ def pictures_come_back(*_):
         raise Skip("built without assimp")
     scene, picture = import_worn(FOLDER / "worn")
     _, places = places_of(scene)
+    assert ElementTree.parse(scene).find(".//visual").get("colour") == "1 1 1"
     for form in ("obj", "glb"):
         report = export(scene.with_suffix(""), {"obj": "obj", "glb": "gltf"}[form], FOLDER / f"worn.{form}")
         assert not any("picture" in sentence for sentence in report["lost"]), report["lost"]
