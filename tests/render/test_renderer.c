@@ -130,6 +130,31 @@ static void test_begun_and_read(void) {
   bench_close(&bench);
 }
 
+static gpointer prepare_bench(gpointer data) {
+  Bench *bench = data;
+  *bench = bench_open();
+  g_assert_true(spore_renderer_warm(bench->renderer, NULL));
+  spore_offscreen_release(bench->offscreen);
+  return NULL;
+}
+
+/* What a thread has prepared draws on another one, and draws the same as what draws at once. */
+static void test_prepared_on_a_thread(void) {
+  static const double sphere[4] = {0, 0, 0, 0.03};
+  Bench prepared, plain = bench_open();
+  g_thread_join(g_thread_new("prepare", prepare_bench, &prepared));
+  const SporeCamera camera = straight_camera(0.3);
+  spore_renderer_add_spheres(plain.renderer, sphere, 1, red, NULL, TRUE);
+  spore_renderer_add_spheres(prepared.renderer, sphere, 1, red, NULL, TRUE);
+  Picture expected = draw_picture(plain.renderer, &camera, 64, 64, FALSE, TRUE),
+          found = draw_picture(prepared.renderer, &camera, 64, 64, FALSE, TRUE);
+  g_assert_cmpmem(found.pixels, 64 * 64 * 4, expected.pixels, 64 * 64 * 4);
+  picture_clear(&expected);
+  picture_clear(&found);
+  bench_close(&prepared);
+  bench_close(&plain);
+}
+
 static Picture draw_clipped(const Bench *bench, const SporeClip *clip, gboolean antialias) {
   const SporeCamera camera = straight_camera(0.3);
   const SporeRenderOptions options = {.width = 200, .height = 150, .antialias = antialias, .clip = *clip};
@@ -387,6 +412,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/begun-and-read", test_begun_and_read);
+  g_test_add_func("/render/renderer/prepared-on-a-thread", test_prepared_on_a_thread);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/handles", test_handles);

@@ -7,7 +7,7 @@ void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, canvas->block);
 }
 
-static gboolean background(SporeCanvas *canvas, SporeVariant variant, GError **error) {
+gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError **error) {
   const SporeProgram *program = spore_programs_get(&canvas->programs, SPORE_PROGRAM_BACKGROUND, variant, error);
   if (!program) return FALSE;
   glUseProgram(program->id);
@@ -25,7 +25,8 @@ gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVa
   SporePrograms *programs = &canvas->programs;
   return spore_surface_pass(drawables, frame, programs, variant, error) &&
          spore_cap_pass(drawables, frame, programs, variant, error) &&
-         spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) && background(canvas, variant, error) &&
+         spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) &&
+         spore_background_pass(canvas, variant, error) &&
          (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
          spore_puff_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&

@@ -116,6 +116,10 @@ gboolean spore_offscreen_make_current(SporeOffscreen *offscreen) {
          eglMakeCurrent(offscreen->display, EGL_NO_SURFACE, EGL_NO_SURFACE, offscreen->context);
 }
 
+void spore_offscreen_release(SporeOffscreen *offscreen) {
+  eglMakeCurrent(offscreen->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 const char *spore_offscreen_renderer(const SporeOffscreen *offscreen) { return offscreen->renderer; }
 
 gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen) { return offscreen->software; }

@@ -213,9 +213,14 @@ typedef struct SporeCanvas {
 
 /* Gives the frame to the shaders. */
 void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame);
+gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError **error);
 /* Draws everything that has a colour into the bound framebuffer, whose depth is cleared. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error);
+
+/* Makes the programs of the fast variant ready, by draws into `target`, whose buffers are of the formats that pictures
+ * have. */
+gboolean spore_canvas_warm(SporeCanvas *canvas, const SporeTarget *target, GError **error);
 
 /* Full quality: shadow, occlusion, several samples a pixel in linear light, glare; then film. */
 typedef struct SporePicture {

@@ -9,6 +9,7 @@
 /* A hardware driver takes several samples of each edge at little cost. */
 #define HARDWARE_SAMPLES 4
 #define LARGEST_PICTURE 16384
+#define SMALL_PICTURE 8 /* that makes programs ready */
 
 struct SporeRenderer {
   SporeOffscreen *offscreen; /* borrowed */
@@ -233,6 +234,23 @@ static void set_state(void) {
   glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
+static gboolean lost_context(GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
+                           _("the OpenGL context was lost; it was expected to last; start again"));
+}
+
+gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error) {
+  SporeTarget small = {0};
+  if (!spore_offscreen_is_software(renderer->offscreen)) return TRUE;
+  if (!spore_offscreen_make_current(renderer->offscreen)) return lost_context(error);
+  set_state();
+  gboolean warm =
+      spore_target_prepare(&small, SMALL_PICTURE, SMALL_PICTURE, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error) &&
+      spore_canvas_warm(&renderer->canvas, &small, error);
+  spore_target_clear(&small);
+  return warm;
+}
+
 static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
                           GError **error) {
   SporeFrame frame;
@@ -255,11 +273,6 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, co
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   spore_target_bind(screen);
   return TRUE;
-}
-
-static gboolean lost_context(GError **error) {
-  return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
-                           _("the OpenGL context was lost; it was expected to last; start again"));
 }
 
 gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,

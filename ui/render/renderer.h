@@ -14,6 +14,8 @@ typedef struct SporeOffscreen SporeOffscreen;
 SporeOffscreen *spore_offscreen_new(GError **error);
 void spore_offscreen_free(SporeOffscreen *offscreen);
 gboolean spore_offscreen_make_current(SporeOffscreen *offscreen);
+/* Current in no thread, so that another thread can make it current. On the thread in which it is. */
+void spore_offscreen_release(SporeOffscreen *offscreen);
 const char *spore_offscreen_renderer(const SporeOffscreen *offscreen); /* GL_RENDERER */
 gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen);
 
@@ -102,6 +104,9 @@ typedef struct SporeRenderOptions {
   gboolean antialias;
   SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;
+/* A software driver compiles a program when it first draws with it, for a hundred times as long as it draws: makes
+ * those ready that pictures without antialias are drawn with. Another driver has nothing to gain. */
+gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error);
 /* Begins a picture, which the driver draws while the caller goes on. What was begun before and not read is forgotten.
  */
 gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,

@@ -85,6 +85,7 @@ struct _SporeViewport {
   char *legend;      /* of the candidate's colours; NULL: none */
   char *legend_high; /* at the end of their scale, which begins at 0 */
 
+  GTask *graphics; /* that prepares the renderer; borrowed; NULL: none does */
   SporeOffscreen *offscreen;
   SporeRenderer *renderer;
   SporeStage *stage;
@@ -153,6 +154,12 @@ void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr);
 /* Readable on any ground; x, y: its left upper corner, pixels. */
 void spore_viewport_draw_text(SporeViewport *self, cairo_t *cr, const char *text, double x, double y);
 gboolean spore_viewport_handle_is_at(SporeViewport *self, SporeVec3 handle, double x, double y);
+
+/* spore-viewport-graphics.c: what draws is prepared on a thread, which takes a second where programs were never
+ * compiled before. Then the view is drawn, or says why it cannot be. */
+void spore_viewport_prepare_graphics(SporeViewport *self);
+/* Returns when it is prepared, or cannot be; the main loop goes on meanwhile. */
+void spore_viewport_wait_for_graphics(SporeViewport *self);
 
 /* spore-viewport-picture.c: what is drawn of the stage. */
 /* Draws the camera's picture where it is stale, and paints it over the area. There is a renderer. */

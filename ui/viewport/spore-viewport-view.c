@@ -35,7 +35,7 @@ static void name_views(SporeViewport *self) {
 void spore_viewport_tell_drawing(SporeViewport *self) {
   gboolean second = self->second_picture.stale && gtk_widget_get_mapped(self->second_area);
   gboolean late = self->rebuild || self->picture.stale || second || self->drawing.of;
-  gboolean drawing = self->renderer && late;
+  gboolean drawing = self->graphics || (self->renderer && late);
   if (drawing == self->told_drawing) return;
   self->told_drawing = drawing;
   atk_object_set_description(gtk_widget_get_accessible(self->area), drawing ? _("The picture is being drawn") : "");

@@ -18,26 +18,6 @@ static guint signals[SIGNAL_COUNT];
 
 /* Drawing. */
 
-/* Where OpenGL is missing, a label says why. The rest of the editor works. */
-static gboolean ensure_renderer(SporeViewport *self) {
-  if (self->renderer) return TRUE;
-  if (self->renderer_name) return FALSE;
-  g_autoptr(GError) error = NULL;
-  self->offscreen = spore_offscreen_new(&error);
-  if (self->offscreen) self->renderer = spore_renderer_new(self->offscreen, &error);
-  if (self->renderer) {
-    self->renderer_name = g_strdup(spore_offscreen_renderer(self->offscreen));
-  } else {
-    g_clear_pointer(&self->offscreen, spore_offscreen_free);
-    self->renderer_name = g_strdup(_("no 3D graphics"));
-    g_autofree char *text =
-        g_strdup_printf(_("The scene cannot be drawn on this machine: %s\n\nEverything else works."), error->message);
-    gtk_label_set_text(GTK_LABEL(self->failure), text);
-    gtk_widget_show(self->failure);
-  }
-  return self->renderer != NULL;
-}
-
 static const SporeSimulation *simulation_of(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   return session ? spore_session_simulation(session) : NULL;
@@ -90,7 +70,7 @@ static void queue_rebuild(SporeViewport *self) {
 }
 
 static void ensure_stage(SporeViewport *self) {
-  if (self->stage || !self->document || !ensure_renderer(self)) return;
+  if (self->stage || !self->document || !self->renderer) return;
   self->stage = spore_stage_new(self->renderer, spore_editor_document_get(self->document));
   g_clear_handle_id(&self->rebuild, g_source_remove);
   spore_stage_set_candidate(self->stage, self->candidate);
@@ -123,6 +103,7 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
                                 gtk_widget_get_allocated_height(self->area) * scale, .grid = FALSE, .antialias = TRUE,
                                 .clip = spore_viewport_clip(self)};
   gsize stride = (gsize)options.width * 4;
+  spore_viewport_wait_for_graphics(self);
   ensure_stage(self);
   spore_viewport_drop_drawing(self);
   spore_viewport_redraw(self); /* what was being drawn */
@@ -234,7 +215,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
-  if (self->renderer) ensure_stage(self);
+  ensure_stage(self);
   queue_rebuild(self);
   gtk_widget_grab_focus(self->area);
   spore_viewport_overlay_update(self);
@@ -326,7 +307,7 @@ void spore_viewport_frame_soon(SporeViewport *self) {
 double spore_viewport_get_draw_ms(SporeViewport *self) { return self->draw_ms; }
 
 const char *spore_viewport_get_renderer(SporeViewport *self) {
-  ensure_renderer(self);
+  spore_viewport_wait_for_graphics(self);
   return self->renderer_name;
 }
 
@@ -334,6 +315,7 @@ static void spore_viewport_dispose(GObject *object) {
   SporeViewport *self = SPORE_VIEWPORT(object);
   release_document(self);
   spore_viewport_drop_drawing(self);
+  self->graphics = NULL;
   g_clear_pointer(&self->renderer, spore_renderer_free);
   g_clear_pointer(&self->offscreen, spore_offscreen_free);
   g_clear_pointer(&self->picture.pixels, cairo_surface_destroy);
@@ -426,4 +408,5 @@ static void spore_viewport_init(SporeViewport *self) {
   spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
   g_signal_connect(self, "measuring", G_CALLBACK(light_tool), NULL);
   light_tool(self);
+  spore_viewport_prepare_graphics(self);
 }
