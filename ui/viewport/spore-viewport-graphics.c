@@ -38,7 +38,7 @@ static void say_why(SporeViewport *self, const GError *error) {
 }
 
 static void prepared(GObject *source, GAsyncResult *result, gpointer user_data) {
-  SporeViewport *self = SPORE_VIEWPORT(source);
+  SporeViewport *self = user_data; /* which the task holds */
   GTask *task = G_TASK(result);
   g_autoptr(GError) error = NULL;
   gboolean ready = g_task_propagate_boolean(task, &error);
@@ -57,7 +57,7 @@ static void prepared(GObject *source, GAsyncResult *result, gpointer user_data) 
 }
 
 void spore_viewport_prepare_graphics(SporeViewport *self) {
-  g_autoptr(GTask) task = g_task_new(self, NULL, prepared, NULL);
+  g_autoptr(GTask) task = g_task_new(self, NULL, prepared, self);
   spore_work_begin();
   g_task_set_task_data(task, g_new0(Graphics, 1), free_graphics);
   self->graphics = task;
