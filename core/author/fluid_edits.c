@@ -189,7 +189,8 @@ static SporeObject *add_body(const Addition *addition, SporeObject *ball, GError
                             ? spore_edit_child_or_new(document, body, "visual", error)
                             : NULL;
   if (!visual || !spore_document_set_text(document, visual, "colour", kind->colour, error) ||
-      !spore_document_set_text(document, visual, "wetness", kind->wetness, error))
+      !spore_document_set_text(document, visual, "wetness", kind->wetness, error) ||
+      (kind->opacity && !spore_document_set_text(document, visual, "opacity", kind->opacity, error)))
     return NULL;
   SporeObject *collision = kind->contact ? spore_edit_child_or_new(document, body, "collision", error) : NULL;
   SporeObject *fidelity = kind->mode ? spore_edit_child_or_new(document, body, "fidelity", error) : NULL;

@@ -3,9 +3,9 @@
 
 #include <glib/gi18n.h>
 
-#define BLOOD "blood", "lennard_jones", "0.45 0.02 0.02", "1", NULL
-#define WATER "water", "lennard_jones", "0.70 0.80 0.84", "1", "effect"
-#define STEAM "steam", "smoke", "0.90 0.90 0.92", "0", "effect"
+#define BLOOD "blood", "lennard_jones", "0.45 0.02 0.02", "1", NULL, NULL
+#define WATER "water", "lennard_jones", "0.62 0.72 0.76", "1", "0.15", "effect"
+#define STEAM "steam", "smoke", "0.90 0.90 0.92", "0", NULL, "effect"
 
 /* At that temperature the particles stay a liquid: models/particles/lennard_jones.c. */
 static const char *const liquid[] = {"temperature", "0.7", "thermostat", "200", NULL};

@@ -15,13 +15,13 @@ typedef enum SporeFluidMouth {
 } SporeFluidMouth;
 
 typedef struct SporeFluidKind {
-  const char *name;             /* on the command line, and the beginning of the emitter's name */
-  const char *label;            /* for people, translatable (N_) */
-  const char *purpose;          /* what it does, a few words that go after the label, translatable (N_) */
-  const char *fluid;            /* the beginning of the body's name */
-  const char *model;            /* element of the scene's file */
-  const char *colour, *wetness; /* as in the scene's file */
-  const char *mode;             /* of its fidelity; NULL: physical */
+  const char *name;                       /* on the command line, and the beginning of the emitter's name */
+  const char *label;                      /* for people, translatable (N_) */
+  const char *purpose;                    /* what it does, a few words that go after the label, translatable (N_) */
+  const char *fluid;                      /* the beginning of the body's name */
+  const char *model;                      /* element of the scene's file */
+  const char *colour, *wetness, *opacity; /* as in the scene's file; opacity NULL: 1 */
+  const char *mode;                       /* of its fidelity; NULL: physical */
   SporeFluidMouth mouth;
   unsigned particles;                                         /* about so many */
   const char *const *settings, *const *contact, *const *flow; /* of the model, of what is felt of it, of the emitter:

@@ -30,7 +30,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  * radius density) tetrahedra(name file source method cells size tolerance curvature fill gap), the same >
  * cell_region(name centre radius size) bodies > body(name role position rotation velocity spin) mechanical(geometry
  * integrator substeps material) > one model element (its own table) regions > region(name centre radius stiffness_scale
- * density_scale material) collision(spheres + spore_contact_parameters) visual(mesh colour wetness texture
+ * density_scale material) collision(spheres + spore_contact_parameters) visual(mesh colour wetness opacity texture
  * texture_places) fidelity(mode level automatic ...) > coarse(geometry settings) medium(geometry settings) links  >
  * pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length) effects tools
  * > probe(name body device) | camera(name position target field_of_view) camera(name position target field_of_view)

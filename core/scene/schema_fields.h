@@ -59,7 +59,7 @@ typedef struct SporeCollisionFields {
 
 typedef struct SporeVisualFields {
   const char *mesh, *texture, *places; /* NULL: none */
-  double colour[3], wetness;
+  double colour[3], wetness, opacity;
 } SporeVisualFields;
 
 typedef struct SporeFidelityFields {

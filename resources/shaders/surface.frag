@@ -7,6 +7,7 @@ in float v_mottle, v_value, v_stain;
 
 uniform vec3 colour;
 uniform float wetness;
+uniform float clearness; // how much is seen of what lies behind
 uniform float cell;     // size of a pattern cell, m
 uniform float selected; // 0 or 1
 uniform int material;   // SporeMaterial
@@ -96,6 +97,9 @@ void main() {
   if (!gl_FrontFacing && dot(clip_plane.xyz, clip_plane.xyz) > 0.0) outcome *= 0.6;
   float rim = 1.0 - clamp(dot(normal, normalize(-v_position)), 0.0, 1.0);
   outcome += selected * vec3(0.10, 0.42, 1.0) * (0.04 + 0.9 * rim * rim * rim);
-  result = finish(outcome, 1.0);
+  // Through water one sees less at a low angle, and nothing behind a glint.
+  float glint = smoothstep(0.9, 2.0, max(outcome.r, max(outcome.g, outcome.b)));
+  float covers = mix(1.0, max(0.8 * rim * rim * rim, glint), clearness);
+  result = finish(outcome, covers);
 }
 #endif

@@ -321,6 +321,35 @@ static void test_puffs(void) {
   bench_close(&bench);
 }
 
+/* A ball inside a larger body, and one before it: the first is seen where the body is clear, the second always. */
+static void test_clear(void) {
+  static const double inside[4] = {0, 0, 0, 0.02}, before[4] = {0, 0, 0.08, 0.01};
+  static const float clearness[] = {0, 0.8f, 0};
+  const SporeClip whole = {{0, 0, 0}, 0};
+  SporeSurfaceStyle style = {{0.02f, 0.02f, 0.7f}, 0, SPORE_MATERIAL_LIQUID, FALSE, FALSE, 0};
+  SporeTriangleMesh mesh = make_organ(0.05);
+  Bench bench = bench_open();
+  spore_renderer_add_spheres(bench.renderer, inside, 1, red, NULL, FALSE);
+  guint body = spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles,
+                                          mesh.triangle_count, &style);
+  for (int antialias = 0; antialias < 2; antialias++)
+    for (gsize i = 0; i < G_N_ELEMENTS(clearness); i++) {
+      style.clearness = clearness[i];
+      spore_renderer_style_surface(bench.renderer, body, &style);
+      Picture picture = draw_clipped(&bench, &whole, antialias);
+      g_assert_cmpint(is_red(&picture, 100, 75), ==, clearness[i] > 0);
+      picture_clear(&picture);
+    }
+  style.clearness = 0.8f;
+  spore_renderer_style_surface(bench.renderer, body, &style);
+  spore_renderer_add_spheres(bench.renderer, before, 1, blue, NULL, FALSE);
+  Picture picture = draw_clipped(&bench, &whole, FALSE);
+  g_assert_true(is_blue(&picture, 100, 75));
+  picture_clear(&picture);
+  spore_triangle_mesh_clear(&mesh);
+  bench_close(&bench);
+}
+
 static void test_handles(void) {
   static const double sphere[4] = {0, 0, 0, 0.05};
   Bench bench = bench_open();
@@ -415,6 +444,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/prepared-on-a-thread", test_prepared_on_a_thread);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
+  g_test_add_func("/render/renderer/clear", test_clear);
   g_test_add_func("/render/renderer/handles", test_handles);
   g_test_add_func("/render/renderer/bad-sizes", test_bad_sizes);
   g_test_add_func("/render/renderer/two-contexts", test_two_contexts);

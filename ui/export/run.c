@@ -60,6 +60,16 @@ void spore_export_lose_sections(SporeExport *export, gboolean links) {
       spore_export_lose(export, g_strdup(_(sections[i].sentence)));
 }
 
+static void lose_opacity(SporeExport *export) {
+  const SporeObject *bodies = spore_document_section(export->document, "bodies");
+  gboolean clear = FALSE;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *visual = spore_object_child_of(spore_object_child(bodies, i), "visual");
+    clear |= visual && spore_object_number(visual, "opacity") < 1;
+  }
+  if (clear) spore_export_lose(export, g_strdup(_("what is seen through surfaces: their opacity")));
+}
+
 /* pictures: the format has those that can be read. */
 static void lose_textures(SporeExport *export, gboolean pictures) {
   const SporeObject *bodies = spore_document_section(export->document, "bodies");
@@ -76,6 +86,7 @@ void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean p
   spore_export_lose_sections(export, TRUE);
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
+  lose_opacity(export);
   lose_textures(export, pictures);
 }
 

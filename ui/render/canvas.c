@@ -18,16 +18,18 @@ gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError
   return TRUE;
 }
 
-/* This order writes each pixel least often: solids, the background behind them, smoke, then overlays. */
+/* This order writes each pixel least often: solids, the background behind them, what is
+ * clear, smoke, then overlays. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error) {
   GPtrArray *drawables = canvas->drawables;
   SporePrograms *programs = &canvas->programs;
-  return spore_surface_pass(drawables, frame, programs, variant, error) &&
+  return spore_surface_pass(drawables, frame, programs, variant, FALSE, error) &&
          spore_cap_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) &&
          spore_background_pass(canvas, variant, error) &&
          (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
+         spore_surface_pass(drawables, frame, programs, variant, TRUE, error) &&
          spore_puff_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
          spore_line_pass(drawables, frame, programs, variant, TRUE, error);

@@ -32,7 +32,8 @@ typedef enum SporeProgramKind {
 
 typedef struct SporeProgram {
   GLuint id; /* 0: not made yet */
-  GLint offset, colour, wetness, cell, selected, material, axis, dim, width, near, fade, direction; /* -1: has none */
+  GLint offset, colour, wetness, clearness, cell, selected, material, axis, dim, width, near, fade,
+      direction; /* -1: has none */
 } SporeProgram;
 
 typedef struct SporePrograms {
@@ -143,6 +144,8 @@ void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const
                        const float *places);
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
+/* Whether something is seen through it. */
+gboolean spore_surface_is_clear(const SporeSurfaceGroup *surface);
 /* Whether its cut by the plane of the frame is filled. */
 gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
@@ -166,9 +169,10 @@ void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gs
 /* The plane of the frame clips what is drawn by shaders that write gl_ClipDistance, until it is told to stop. */
 void spore_frame_clip(const SporeFrame *frame, gboolean clips);
 
-/* Passes: draw every visible drawable of their kind (NULL entries are skipped) to the bound framebuffer. */
+/* Passes: draw every visible drawable of their kind (NULL entries are skipped) to the bound framebuffer. Of surfaces
+ * those that are clear, or the others. */
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
-                            SporeVariant variant, GError **error);
+                            SporeVariant variant, gboolean clear, GError **error);
 /* Fills the faces at which the plane of the frame cuts closed surfaces, as the inside of each; those of open surfaces
  * stay open. Uses the stencil of the framebuffer. */
 gboolean spore_cap_pass(const GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,

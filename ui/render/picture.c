@@ -44,7 +44,7 @@ static gboolean draw_depth(SporeCanvas *canvas, const SporeFrame *frame, const S
   glClear(GL_DEPTH_BUFFER_BIT);
   glFrontFace(variant == SPORE_VARIANT_SHADOW ? GL_CCW : GL_CW); /* only the eye's projection is upside down */
   gboolean caps = variant != SPORE_VARIANT_SHADOW; /* the lamp's map has no stencil, and what is cut away no shadow */
-  gboolean drawn = spore_surface_pass(canvas->drawables, frame, &canvas->programs, variant, error) &&
+  gboolean drawn = spore_surface_pass(canvas->drawables, frame, &canvas->programs, variant, FALSE, error) &&
                    (!caps || spore_cap_pass(canvas->drawables, frame, &canvas->programs, variant, error)) &&
                    spore_sphere_pass(canvas->drawables, frame, &canvas->programs, variant, FALSE, error);
   glFrontFace(GL_CW);

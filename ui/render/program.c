@@ -115,6 +115,7 @@ static void find_uniforms(SporeProgram *program) {
   program->offset = glGetUniformLocation(id, "offset");
   program->colour = glGetUniformLocation(id, "colour");
   program->wetness = glGetUniformLocation(id, "wetness");
+  program->clearness = glGetUniformLocation(id, "clearness");
   program->cell = glGetUniformLocation(id, "cell");
   program->selected = glGetUniformLocation(id, "selected");
   program->material = glGetUniformLocation(id, "material");

@@ -27,6 +27,7 @@ typedef struct SporeSurfaceStyle {
   float wetness;   /* 0..1: film of the specular lobe */
   SporeMaterial material;
   gboolean selected, wireframe;
+  float clearness; /* 0..1: how much is seen of what lies behind it */
 } SporeSurfaceStyle;
 
 SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);

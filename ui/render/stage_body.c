@@ -273,13 +273,14 @@ static void prepare_divide(SporeStage *stage, SporeStageBody *body, const SporeO
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
                                      const SporeLodGrade *level) {
   SporeStageBody *body = g_new0(SporeStageBody, 1);
-  SporeVisualFields visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5};
+  SporeVisualFields visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5, .opacity = 1};
   const SporeObject *unit = spore_object_child_of(object, "visual");
   if (unit) spore_object_fields(unit, &visual);
   body->object = spore_object_id(object);
   body->world_body = SPORE_NO_BODY;
   for (int i = 0; i < 3; i++) body->style.colour[i] = (float)spore_linear_light(visual.colour[i]);
   body->style.wetness = (float)visual.wetness;
+  body->style.clearness = (float)(1 - visual.opacity);
   SporeBodyFields fields;
   spore_object_fields(object, &fields);
   body->style.material = fields.role == SPORE_ACTIVE ? SPORE_MATERIAL_METAL : SPORE_MATERIAL_TISSUE;

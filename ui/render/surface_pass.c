@@ -191,8 +191,12 @@ void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const
   glBindVertexArray(0);
 }
 
+gboolean spore_surface_is_clear(const SporeSurfaceGroup *surface) {
+  return surface->style.clearness > 0 && !surface->style.wireframe;
+}
+
 gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface) {
-  return surface->closed && !surface->values && !surface->style.wireframe;
+  return surface->closed && !surface->values && !surface->style.wireframe && !spore_surface_is_clear(surface);
 }
 
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
@@ -238,6 +242,7 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   spore_drawable_set_offset(&surface->base, frame, program->offset);
   glUniform3fv(program->colour, 1, style->colour);
   glUniform1f(program->wetness, style->wetness);
+  glUniform1f(program->clearness, style->clearness);
   glUniform1f(program->cell, surface->cell);
   glUniform1f(program->selected, style->selected ? 1 : 0);
   glUniform1i(program->material, style->material);
@@ -256,15 +261,28 @@ static gboolean is_drawn(const SporeDrawable *drawable, gboolean colours) {
          (colours || !((const SporeSurfaceGroup *)drawable)->style.wireframe);
 }
 
-/* Draws those with a texture, or those without one. Depth is drawn of all alike, by the program of those without. */
+/* Of a clear surface, only what is nearest is seen: its depth comes first. */
+static void draw_clear(const SporeSurfaceGroup *surface, const SporeFrame *frame, const SporeProgram *program) {
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_surface(surface, frame, program, TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glEnable(GL_BLEND);
+  draw_surface(surface, frame, program, TRUE);
+  glDisable(GL_BLEND);
+}
+
+/* Draws those with a texture, or those without one; those that are clear, or those that are not. Depth is drawn of all
+ * alike, by the program of those without a texture. */
 static gboolean draw_kind(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
-                          gboolean textured, GError **error) {
+                          gboolean textured, gboolean clear, GError **error) {
   const SporeProgram *program = NULL;
   const SporeProgramKind kind = textured ? SPORE_PROGRAM_TEXTURED_SURFACE : SPORE_PROGRAM_SURFACE;
   gboolean colours = variant < SPORE_VARIANT_DEPTH;
   for (guint i = 0; i < drawables->len; i++) {
     const SporeSurfaceGroup *surface = drawables->pdata[i];
-    if (!is_drawn(drawables->pdata[i], colours) || (colours && surface->texture != NULL) != textured) continue;
+    if (!is_drawn(drawables->pdata[i], colours) || (colours && surface->texture != NULL) != textured ||
+        spore_surface_is_clear(surface) != clear)
+      continue;
     if (!program) {
       program = spore_programs_get(programs, kind, variant, error);
       if (!program) return FALSE;
@@ -274,17 +292,18 @@ static gboolean draw_kind(GPtrArray *drawables, const SporeFrame *frame, SporePr
       glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_TEXTURE);
       glBindTexture(GL_TEXTURE_2D, surface->texture->id);
     }
-    draw_surface(surface, frame, program, colours);
+    if (clear) draw_clear(surface, frame, program);
+    else draw_surface(surface, frame, program, colours);
   }
   return TRUE;
 }
 
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
-                            SporeVariant variant, GError **error) {
+                            SporeVariant variant, gboolean clear, GError **error) {
   if (!spore_drawables_show(drawables, SPORE_DRAW_SURFACE)) return TRUE;
   spore_frame_clip(frame, TRUE);
-  gboolean done = draw_kind(drawables, frame, programs, variant, FALSE, error) &&
-                  draw_kind(drawables, frame, programs, variant, TRUE, error);
+  gboolean done = draw_kind(drawables, frame, programs, variant, FALSE, clear, error) &&
+                  draw_kind(drawables, frame, programs, variant, TRUE, clear, error);
   spore_frame_clip(frame, FALSE);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

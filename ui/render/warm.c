@@ -43,7 +43,7 @@ static gboolean draw(SporeCanvas *canvas, Step step, const SporeFrame *frame, GP
   case LINES:
     return spore_line_pass(things, frame, programs, variant, TRUE, error);
   case SURFACES:
-    return spore_surface_pass(things, frame, programs, variant, error);
+    return spore_surface_pass(things, frame, programs, variant, FALSE, error);
   case PUFFS:
     return spore_puff_pass(things, frame, programs, variant, error);
   default:
