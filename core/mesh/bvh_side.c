@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/mesh/bvh_node.h"
+#include "core/mesh/edge_marks.h"
 
 #define UNSURE 1e-13 /* of the terms of a sum: a sum nearer to 0 may have either sign by rounding */
 
@@ -97,35 +98,23 @@ bool spore_bvh_inside(const SporeBvh *bvh, SporeVec3 p) {
   return sure ? winding > 0 : spore_bvh_winding(bvh, p) > 0.5;
 }
 
-/* Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators": the mixing of 64 bits. */
-static uint64_t mix(uint64_t x) {
-  x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  x = (x ^ x >> 27) * UINT64_C(0x94d049bb133111eb);
-  return x ^ x >> 31;
-}
-
 static uint64_t mark_of(const double *place) {
   uint64_t mark = 0;
   for (int k = 0; k < 3; k++) {
     double x = place[k] + 0.0; /* -0 is 0 */
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    mark = mix(mark + UINT64_C(0x9e3779b97f4a7c15) + bits);
+    mark = spore_mark_mix(mark + UINT64_C(0x9e3779b97f4a7c15) + bits);
   }
   return mark;
 }
 
-/* The sum over all edges of a random number of the edge's ends, with the sign of its direction, is 0 if all cancel; and
- * else only by a chance of 2^-64. */
 bool spore_bvh_is_closed(const SporeBvh *bvh) {
   uint64_t sum = 0;
   for (size_t t = 0; t < bvh->triangle_count; t++) {
     uint64_t mark[3];
     for (size_t k = 0; k < 3; k++) mark[k] = mark_of(bvh->corners + 9 * t + 3 * k);
-    for (int k = 0; k < 3; k++) {
-      uint64_t from = mark[k], to = mark[(k + 1) % 3];
-      sum += from < to ? mix(mix(from) + to) : from > to ? -mix(mix(to) + from) : 0;
-    }
+    for (int k = 0; k < 3; k++) sum += spore_edge_mark(mark[k], mark[(k + 1) % 3]);
   }
   return !sum;
 }

@@ -3,6 +3,7 @@
 
 #include "core/base/text.h"
 #include "core/mesh/common.h"
+#include "core/mesh/edge_marks.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/volume.h"
 
@@ -33,6 +34,14 @@ double spore_triangle_mesh_volume(const SporeTriangleMesh *mesh) {
     volume += spore_vec3_dot(p[0], spore_vec3_cross(p[1], p[2])) / 6;
   }
   return volume;
+}
+
+bool spore_triangle_mesh_has_inside(const SporeTriangleMesh *mesh) {
+  uint64_t sum = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++)
+    for (size_t k = 0; k < 3; k++)
+      sum += spore_edge_mark(mesh->triangles[3 * t + k], mesh->triangles[3 * t + (k + 1) % 3]);
+  return mesh->triangle_count && !sum;
 }
 
 static void measure_triangles(const SporeTriangleMesh *mesh, SporeMeshReport *report) {

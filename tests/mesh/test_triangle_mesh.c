@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/mesh/volume.h"
 #include "tests/mesh/shapes.h"
 
 #define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
@@ -23,6 +24,7 @@ static void test_report_box(void) {
   SporeMeshReport report = report_of(&box);
   g_assert_cmpuint(box.vertex_count, ==, 6 * 16 + 2);
   g_assert_true(report.closed);
+  g_assert_true(spore_triangle_mesh_has_inside(&box));
   g_assert_cmpuint(report.components, ==, 1);
   g_assert_cmpuint(report.degenerate_triangles, ==, 0);
   CLOSE(report.volume, 6, 1e-12);
@@ -48,6 +50,7 @@ static void test_report_open(void) {
   SporeMeshReport report = report_of(&box);
   g_assert_cmpuint(report.boundary_edges, ==, 3);
   g_assert_false(report.closed);
+  g_assert_false(spore_triangle_mesh_has_inside(&box));
   spore_triangle_mesh_clear(&box);
 }
 
@@ -60,6 +63,7 @@ static void test_report_misoriented(void) {
   SporeMeshReport report = report_of(&box);
   g_assert_cmpuint(report.misoriented_edges, ==, 3);
   g_assert_false(report.closed);
+  g_assert_false(spore_triangle_mesh_has_inside(&box));
   spore_triangle_mesh_clear(&box);
 }
 
@@ -72,6 +76,7 @@ static void test_report_nonmanifold(void) {
   shape_append(&a, &b);
   g_assert_cmpuint(report_of(&a).components, ==, 2);
   g_assert_true(spore_triangle_mesh_weld(&a, 1e-6, NULL));
+  g_assert_true(spore_triangle_mesh_has_inside(&a));
   SporeMeshReport report = report_of(&a);
   g_assert_cmpuint(report.nonmanifold_edges, ==, 1);
   g_assert_cmpuint(report.components, ==, 1);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/math/mat3.h"
+#include "core/mesh/volume.h"
 #include "ui/render/passes.h"
 
 /* Value noise on a lattice, 0..1, for the coarse pattern. It is computed once a vertex instead of once a pixel. */
@@ -69,8 +70,7 @@ static gboolean is_closed(const double *vertices, gsize vertex_count, const guin
                             .triangle_count = triangle_count,
                             .vertices = (double *)vertices,
                             .triangles = (guint32 *)triangles};
-  SporeMeshReport report;
-  return spore_triangle_mesh_report(&mesh, &report, NULL) && report.closed && report.volume > 0;
+  return spore_triangle_mesh_has_inside(&mesh) && spore_triangle_mesh_volume(&mesh) > 0;
 }
 
 /* Which vertex of the mesh a vertex is that is drawn. */
