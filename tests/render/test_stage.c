@@ -267,6 +267,26 @@ static void test_sphere_scale(void) {
   setting_close(&setting);
 }
 
+static void count_found(gpointer data) { ++*(int *)data; }
+
+/* A stage that is looked at shows the spheres at once, and their errors when these are measured: once for each set. */
+static void test_fit_aside(void) {
+  Setting setting = setting_open(MINIMAL);
+  int found = 0;
+  spore_stage_measure_aside(setting.stage, count_found, &found);
+  spore_stage_set_options(setting.stage, &(SporeStageOptions){.surfaces = TRUE, .spheres = TRUE});
+  name_source(&setting, "ball", "ball");
+  g_assert_cmpfloat(spore_stage_sphere_scale(setting.stage).share, ==, 0);
+  while (!found) g_main_context_iteration(NULL, TRUE);
+  spore_stage_rebuild(setting.stage, NULL);
+  g_assert_cmpfloat_with_epsilon(spore_stage_sphere_scale(setting.stage).high, 0.02 * 0.04 * sqrt(3), 1e-5);
+  while (g_main_context_iteration(NULL, FALSE)) {
+  }
+  g_assert_cmpint(found, ==, 1);
+  name_source(&setting, "floor", "floor"); /* and the stage is gone before it is measured */
+  setting_close(&setting);
+}
+
 /* A picture of the bowl in which every place whose way out is below `most` is stained so much; the blood itself is
  * hidden. */
 static Picture draw_stained(Setting *setting, float stain, float most, guint64 number) {
@@ -580,6 +600,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/held-places", test_held_places);
   g_test_add_func("/render/stage/held-within", test_held_within);
   g_test_add_func("/render/stage/sphere-scale", test_sphere_scale);
+  g_test_add_func("/render/stage/fit-aside", test_fit_aside);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);
   g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);

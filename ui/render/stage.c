@@ -11,11 +11,16 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->options.surfaces = TRUE;
   stage->bodies = g_ptr_array_new();
   stage->textures = spore_stage_textures_new();
-  stage->fit = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  stage->fits = spore_stage_fits_new();
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
   stage->selection = g_hash_table_new(NULL, NULL);
   return stage;
+}
+
+void spore_stage_measure_aside(SporeStage *stage, void (*found)(gpointer data), gpointer data) {
+  stage->found = found;
+  stage->found_data = data;
 }
 
 static void clear(SporeStage *stage) {
@@ -35,7 +40,7 @@ void spore_stage_free(SporeStage *stage) {
   spore_stage_drop_textures(stage);
   g_hash_table_destroy(stage->textures);
   g_ptr_array_free(stage->bodies, TRUE);
-  g_hash_table_destroy(stage->fit);
+  spore_stage_fits_free(stage->fits);
   g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
   g_array_free(stage->port_lines, TRUE);

@@ -41,6 +41,9 @@ typedef struct SporeStageMarks {
 /* The arguments are borrowed. Without a simulation, bodies stand where the document puts them. */
 SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document);
 void spore_stage_free(SporeStage *stage);
+/* What takes longer to measure than a picture to draw is left out until a thread has measured it; then found is called
+ * on the main thread, and the next rebuild shows it. Else it is measured at once. */
+void spore_stage_measure_aside(SporeStage *stage, void (*found)(gpointer data), gpointer data);
 /* Builds everything anew from the document (assets that cannot be read are skipped; check says why). */
 void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation);
 /* Moves the bodies to the state of the snapshot. */

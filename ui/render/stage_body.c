@@ -5,14 +5,12 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/mesh/bvh.h"
 #include "core/scene/drawing.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/colour_scale.h"
 
 static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
 #define TUBE_SECTORS 16
-#define FIT_SCALE 0.02 /* of the diagonal: the error that has the last colour of the scale */
 
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
@@ -180,35 +178,6 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   build_tube(stage, body, object, simulation);
 }
 
-/* The error of each sphere of a set in the mesh it was made from: |radius - depth of its centre|. */
-typedef struct SporeStageFit {
-  double high;    /* m: the error that has the last colour of the scale */
-  float places[]; /* place of each sphere's error on the scale, 0..1 */
-} SporeStageFit;
-
-/* NULL: no such mesh. The stage keeps the result. */
-static const SporeStageFit *find_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
-  if (set->weights) return NULL; /* weighted spheres fit together; one of them has no error of its own */
-  SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
-  if (fit) return fit;
-  const char *name = spore_object_text(asset, "source");
-  SporeObject *source = name ? spore_document_find(stage->document, "mesh", name) : NULL;
-  const SporeTriangleMesh *mesh = source ? spore_document_mesh(stage->document, source, NULL) : NULL;
-  SporeMeshReport report;
-  SporeBvh *bvh = mesh && spore_triangle_mesh_report(mesh, &report, NULL) ? spore_bvh_create(mesh, NULL) : NULL;
-  if (!bvh) return NULL;
-  fit = g_malloc(sizeof *fit + set->count * sizeof *fit->places);
-  fit->high = FIT_SCALE * report.diagonal;
-  for (gsize i = 0; i < set->count; i++) {
-    const double *sphere = set->spheres + 4 * i;
-    double error = fabs(sphere[3] - spore_bvh_depth(bvh, spore_vec3_load(sphere)));
-    fit->places[i] = (float)MIN(error / fit->high, 1.0);
-  }
-  spore_bvh_free(bvh);
-  g_hash_table_insert(stage->fit, (gpointer)set, fit);
-  return fit;
-}
-
 /* asset: of the set; NULL: the model's own spheres. */
 static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
                          const SporeSphereSet *set, SporeObject *asset) {
@@ -221,7 +190,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   spore_spheres_radii(set, body->spheres + 3, 4);
   body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
-  const SporeStageFit *fit = body->solid || !asset ? NULL : find_fit(stage, asset, set);
+  const SporeStageFit *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
   body->fit_high = fit ? fit->high : 0;
   body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
                                                     body->solid ? body->style.colour : sphere_colour,
@@ -407,7 +376,7 @@ SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
     const SporeStageBody *body = stage->bodies->pdata[i];
     if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
     scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
-    scale.share = FIT_SCALE;
+    scale.share = SPORE_STAGE_FIT_SCALE;
   }
   return scale;
 }

@@ -77,8 +77,10 @@ struct SporeStage {
   GHashTable *hidden;    /* ids of bodies that are not shown, as pointers; borrowed; NULL: all are */
   SporeClip clip;        /* what is not picked */
   GPtrArray *bodies;     /* SporeStageBody * */
-  GHashTable *fit;       /* const SporeSphereSet * -> SporeStageFit * */
-  GHashTable *textures;  /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
+  GPtrArray *fits;       /* see stage_fit.c */
+  void (*found)(gpointer data);
+  gpointer found_data;
+  GHashTable *textures; /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
@@ -120,6 +122,16 @@ void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const Spor
 void spore_stage_body_find_texture(SporeStage *stage, SporeStageBody *body, const SporeObject *visual);
 /* Lays the texture over the surface that was just added. places: of its triangles; NULL: nothing is laid. */
 void spore_stage_body_lay_texture(SporeStage *stage, SporeStageBody *body, const double *vertices, const float *places);
+/* The errors of a set's spheres in the mesh that the set was made from. NULL: there is none, or it is not measured yet;
+ * the stage keeps the result. */
+#define SPORE_STAGE_FIT_SCALE 0.02 /* of the diagonal: the error that has the last colour of the scale */
+typedef struct SporeStageFit {
+  double high;    /* m: the error that has the last colour of the scale */
+  float places[]; /* place of each sphere's error on the scale, 0..1 */
+} SporeStageFit;
+const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+GPtrArray *spore_stage_fits_new(void);
+void spore_stage_fits_free(GPtrArray *fits);
 /* The stage's textures: none at first; those that no body has had since the last call are removed. */
 GHashTable *spore_stage_textures_new(void);
 void spore_stage_drop_textures(SporeStage *stage);

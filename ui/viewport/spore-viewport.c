@@ -69,9 +69,12 @@ static void queue_rebuild(SporeViewport *self) {
   spore_viewport_tell_drawing(self);
 }
 
+static void measured_aside(gpointer data) { queue_rebuild(data); }
+
 static void ensure_stage(SporeViewport *self) {
   if (self->stage || !self->document || !self->renderer) return;
   self->stage = spore_stage_new(self->renderer, spore_editor_document_get(self->document));
+  spore_stage_measure_aside(self->stage, measured_aside, self);
   g_clear_handle_id(&self->rebuild, g_source_remove);
   spore_stage_set_candidate(self->stage, self->candidate);
   spore_stage_set_marks(self->stage, &self->marks);
