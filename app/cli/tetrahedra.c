@@ -64,6 +64,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_number(cli, "filled_m3", report->filled);
   if (options->apart) {
     spore_cli_count(cli, "shared_faces", (gint64)report->shared_faces);
+    spore_cli_number(cli, "border_lost", report->border_lost);
     spore_cli_number(cli, "border_distance", report->border_distance);
   }
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
@@ -298,15 +299,20 @@ static const SporeReportMember members[] = {
         "inside: left out; cavity; sheet), wall (of one wholly inside another one: open, lumen, doubled, closed, "
         "turned; none: it is no such wall), in (index of the part in which most of what lies inside does, -1: none), "
         "triangles, holes, open_edges, area_m2, inside_share, least_depth_m, most_depth_m (below the surface of that "
-        "part), cells (with --pieces apart: of its own; the tag of these in the file is 1 + its index here)")},
+        "part), cells (with --pieces apart: of its own; the tag of these in the file is 1 + its index here), "
+        "thickness_m (about, where it is closed, or with --pieces apart of the place that it has; 0: unknown), "
+        "merged_with (with --pieces apart: index of the part that its cells went to, as it is too thin for so few; "
+        "-1: none)")},
     {"crumbs",
      N_("share of the volume that was left out: small pieces that came off where a part is thinner than a cell")},
     {"method", N_("direct, repaired, wrapped or voxels: what the surface needed; labels: of a label map")},
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},
     {"shared_faces", N_("of a label map, or with --pieces apart: between two organs or pieces")},
+    {"border_lost",
+     N_("with --pieces apart: share of the surfaces between pieces where a piece is too thin for faces")},
     {"border_distance",
-     N_("with --pieces apart: largest distance of the surfaces between pieces from these faces, of the diagonal")},
+     N_("with --pieces apart: largest distance of the rest of these surfaces from these faces, of the diagonal")},
     {"labels",
      N_("of a label map, of each organ: label, name, cells, weight (cells wanted for its volume: more where its name "
         "says a soft tissue), share (of all cells), volume_m3, voxel_volume_m3, volume_change, "

@@ -21,6 +21,8 @@ void spore_cli_report_parts(SporeCli *cli, const SporeTetrahedraReport *report) 
     spore_cli_number(cli, "least_depth_m", piece->depth[0]);
     spore_cli_number(cli, "most_depth_m", piece->depth[1]);
     spore_cli_count(cli, "cells", (gint64)piece->cells);
+    spore_cli_number(cli, "thickness_m", piece->thickness);
+    spore_cli_count(cli, "merged_with", piece->merged);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

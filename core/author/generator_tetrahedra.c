@@ -100,7 +100,10 @@ static const SporeParameter tetrahedra_parameters[] = {
      FIELD(SporeTetrahedraFields, pieces),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Pieces of the mesh, as an organ and its vessels: merged into one solid; the largest alone with what "
-               "lies inside it; or apart, each with cells of its own that share faces where pieces touch.")},
+               "lies inside it; or apart, each with cells of its own that share faces where pieces touch. Pieces too "
+               "thin for "
+               "the number of cells are then merged with one that they touch, those that cost the most cells first, "
+               "and named.")},
     {.name = "gap",
      .type = SPORE_REAL,
      .unit = "m",

@@ -2117,7 +2117,8 @@ def tetrahedra_of_parts():
     tags = [int(line.split()[4]) for line in lines[first:first + apart["tetrahedra"]]]
     assert [tags.count(1 + i) for i in range(3)] == [part["cells"] for part in apart["parts"]], apart["parts"]
     assert min(part["cells"] for part in apart["parts"]) > 20 and apart["shared_faces"] > 20, apart
-    assert apart["border_distance"] < 0.02, apart["border_distance"]
+    assert apart["border_distance"] < 0.02 and apart["border_lost"] < 0.2, apart
+    assert all(part["merged_with"] == -1 and part["thickness_m"] > 0.005 for part in apart["parts"]), apart["parts"]
     refuses(*ask, "--pieces", "apart", "--curvature", 20, says=["kept apart", "leave these out"])
     assert "chamber: " in spore(*ask).stdout and "chamber: " not in spore(*ask, "--parts", "organ, vessel").stdout
     refuses(*ask, "--parts", "spleen", says=["spleen", "organ, vessel, chamber"])

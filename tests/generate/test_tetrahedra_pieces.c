@@ -381,6 +381,9 @@ static void test_apart(void) {
   g_assert_nonnull(strstr(remarks, "cells of its own: "));
   g_assert_nonnull(strstr(remarks, "pieces kept apart share "));
   g_assert_nonnull(strstr(remarks, "a wall inside "));
+  g_assert_null(strstr(remarks, "merged with others"));
+  for (size_t i = 0; i < result.report.piece_count; i++) g_assert_cmpint(result.report.piece[i].merged, ==, -1);
+  g_assert_cmpfloat(fabs(result.report.piece[3].thickness / 0.016 - 1), <, 0.2); /* of a ball 4/3 of the radius */
   g_free(remarks);
   spore_tetrahedral_mesh_clear(&result.mesh);
 
@@ -391,6 +394,43 @@ static void test_apart(void) {
   check_refused(&lone, (SporeTetrahedraOptions){.method = SPORE_TETRAHEDRA_DIRECT, .cells = 300, .apart = true},
                 SPORE_ERROR_INPUT, "leave these out");
   spore_triangle_mesh_clear(&lone);
+}
+
+/* Plates that cross the organ: few cells cannot have them. The number of cells is met, and plates are merged and told
+ * with their thickness and the number of cells that would do. */
+static void test_apart_thin(void) {
+  SporeTriangleMesh plates = {0}, plate = {0};
+  for (int i = 0; i < 3; i++) {
+    const double z = 0.014 * (i - 1), wide = 0.024 + 0.004 * i;
+    shape_box(&plate, (double[3]){-wide, -wide, z}, (double[3]){wide, wide, z + 0.006}, 4);
+    shape_append(&plates, &plate);
+    spore_triangle_mesh_clear(&plate);
+  }
+  uint32_t *parts;
+  static const char *const names[] = {"organ", "vessel"};
+  SporeTriangleMesh organ = organ_with(&plates, &parts);
+  SporeTetrahedraOptions options = {CHAIN,         .cells = 300,   .tolerance = 0.05,
+                                    .apart = true, .parts = parts, .part_names = names};
+  Result result = fill(&organ, options, "voxels");
+  spore_free(parts);
+  char *remarks = spore_tetrahedra_remarks(&result.mesh, &options, &result.report);
+  g_test_message("%zu cells; %s", result.mesh.tetrahedron_count, remarks);
+  check_cells(&result, 300);
+  size_t merged = 0, all = 0;
+  for (size_t i = 0; i < result.report.piece_count; i++) {
+    const SporeTetrahedraPiece *piece = result.report.piece + i;
+    all += piece->cells;
+    merged += piece->merged >= 0;
+    g_assert_true((piece->cells > 0) == (piece->merged < 0));
+    g_assert_cmpfloat(piece->thickness, >, 0.002);
+  }
+  g_assert_cmpuint(all, ==, result.mesh.tetrahedron_count);
+  g_assert_cmpuint(merged, >=, 1);
+  g_assert_cmpint(result.report.piece[0].merged, ==, -1); /* the organ is the largest */
+  g_assert_nonnull(strstr(remarks, "mm thick, too thin for cells of its own: merged with "));
+  g_assert_nonnull(strstr(remarks, "300 cells were asked for: pieces too thin for so few were merged with others: "));
+  g_free(remarks);
+  spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
 /* Where so few cells are too far from the surface, that is said with a number that does: meshed again with that
@@ -447,6 +487,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/tetrahedra/walls", test_walls);
   g_test_add_func("/tetrahedra/mixed", test_mixed);
   g_test_add_func("/tetrahedra/apart", test_apart);
+  g_test_add_func("/tetrahedra/apart_thin", test_apart_thin);
   g_test_add_func("/tetrahedra/far", test_far);
   return g_test_run();
 }

@@ -9,12 +9,14 @@
 #include "core/mesh/common.h"
 
 #define MOST_PASSES 100
-#define FIRST_LIMIT 0.02 /* of a wanted edge: largest distance of the skin in the first pass */
 #define NEXT_LIMIT 1.3
-#define NEXT_SHARE 0.95 /* of the cells: a pass that leaves more is followed by one with a larger limit */
-#define OUTER_COST 0.15 /* cost of an edge of the wanted length on the skin */
-#define INNER_COST 0.05 /* the same inside */
-#define MARGIN 3        /* degrees above `least`: the quality that is kept */
+#define NEXT_SHARE 0.95  /* of the cells: a pass that leaves more is followed by one with a larger limit */
+#define STUCK_SHARE 0.99 /* of the cells: a pass at the largest limit that leaves more is the last */
+#define OUTER_COST 0.15  /* cost of an edge of the wanted length on the skin */
+#define INNER_COST 0.05  /* the same inside */
+#define MARGIN 3         /* degrees above `least`: the quality that is kept */
+
+const double spore_coarsen_limits[2] = {0.02, 4};
 
 typedef struct {
   double cost;
@@ -130,16 +132,17 @@ static double largest_size(const SporeSizing *sizing) {
 
 bool spore_tetrahedra_coarsen(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points,
                               const SporeSizing *sizing, size_t cells, const size_t *kept, double least,
-                              const SporeProgress *progress, SporeError *error) {
-  const double first = (double)mesh->tetrahedron_count, usual = largest_size(sizing);
-  Coarsening c = {mesh, surface, points, sizing, cells, kept, usual, FIRST_LIMIT * usual, least + MARGIN};
+                              const double *limits, const SporeProgress *progress, SporeError *error) {
+  const double first = (double)mesh->tetrahedron_count, usual = largest_size(sizing), most = limits[1] * usual;
+  Coarsening c = {mesh, surface, points, sizing, cells, kept, usual, limits[0] * usual, least + MARGIN};
   for (int pass = 0; pass < MOST_PASSES && mesh->tetrahedron_count > cells; pass++) {
     double before = (double)mesh->tetrahedron_count;
     if (!spore_progress_step(progress, log(first / before) / log(first / (double)cells), _("making the cells fewer"),
                              error))
       return false;
     if (!collapse_all(&c, error) || !better(mesh, surface, c.floor + MARGIN, error)) return false;
-    if ((double)mesh->tetrahedron_count > NEXT_SHARE * before) c.limit *= NEXT_LIMIT;
+    if (!(c.limit < most) && (double)mesh->tetrahedron_count > STUCK_SHARE * before) break;
+    if ((double)mesh->tetrahedron_count > NEXT_SHARE * before) c.limit = fmin(c.limit * NEXT_LIMIT, most);
   }
   return true;
 }

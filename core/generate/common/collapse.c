@@ -309,11 +309,12 @@ bool spore_collapse_edge(SporeCollapse *c, uint32_t a, uint32_t b) {
     return false;
   SporeVec3 pa = place_of(c, a), pb = place_of(c, b), middle = spore_vec3_scale(0.5, spore_vec3_add(pa, pb));
   if (c->face_count && c->surface) spore_bvh_distance(c->surface, middle, &middle, NULL);
-  const SporeVec3 places[3] = {middle, pa, pb};
-  const bool allowed[3] = {a_goes && b_goes, b_goes, a_goes};
+  const SporeVec3 places[4] = {middle, pa, pb, spore_vec3_scale(0.5, spore_vec3_add(pa, pb))};
+  const bool allowed[4] = {a_goes && b_goes, b_goes, a_goes,
+                           a_goes && b_goes && c->face_count && c->surface && c->stars->labels};
   double best = fmax(c->limit, off_now(c) * (1 + 1e-9));
   int choice = -1;
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 3 + (choice < 0); i++) { /* of a border, the middle off the surface too */
     double cost = allowed[i] ? cost_at(c, a, b, places[i], best) : HUGE_VAL;
     if (!(cost < best)) continue;
     best = cost, choice = i;

@@ -123,13 +123,15 @@ void spore_skin_points_clear(SporeSkinPoints *points);
 bool spore_tetrahedra_improve(SporeTetrahedralMesh *mesh, uint32_t **labels, const SporeBvh *surface, double goal,
                               const SporeProgress *progress, SporeError *error);
 
+extern const double spore_coarsen_limits[2]; /* the usual ones: from nearly nothing to what any mesh needs */
 /* Collapses edges until `cells` are left, or no further edge can be collapsed. Edges that are short relative to the
  * wanted length go first, and those that keep the skin nearest to its points. No cell's quality falls below `least`.
- * mesh->labels are kept. kept: by label, cells that each keeps, of a label that has fewer all; NULL: any number.
- * Vertices keep their numbers; some are no longer in any cell. */
+ * mesh->labels are kept. limits: how far the skin may be from its points in the first pass, and in any, as shares of
+ * the largest wanted length: spore_coarsen_limits, or others. kept: by label, cells that each keeps, of a label that
+ * has fewer all; NULL: any number. Vertices keep their numbers; some are no longer in any cell. */
 bool spore_tetrahedra_coarsen(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points,
                               const SporeSizing *sizing, size_t cells, const size_t *kept, double least,
-                              const SporeProgress *progress, SporeError *error);
+                              const double *limits, const SporeProgress *progress, SporeError *error);
 
 /* Moves vertices of the skin to where its faces are nearest to their points (and the middles of the faces to
  * `surface`, unless it is NULL), even off the surface. Distances beyond `usual` count more than by their squares. No

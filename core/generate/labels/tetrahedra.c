@@ -322,8 +322,8 @@ bool spore_label_coarsen(SporeTetrahedralMesh *mesh, SporeLabelPoints *points, s
   const SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &size};
   Balance *balance = SPORE_NEW(Balance);
   bool done = balance != NULL || spore_mesh_no_memory(error);
-  done =
-      done && spore_tetrahedra_coarsen(mesh, NULL, &points->points, &sizing, cells, kept, LEAST_ANGLE, progress, error);
+  done = done && spore_tetrahedra_coarsen(mesh, NULL, &points->points, &sizing, cells, kept, LEAST_ANGLE,
+                                          spore_coarsen_limits, progress, error);
   for (int turn = 0; done && turn < BORDER_TURNS; turn++) {
     if (turn && !(done = measure_borders(mesh, balance->volume, balance->area) || spore_mesh_no_memory(error))) break;
     done = spore_progress_step(progress, 1, _("fitting the borders"), error);

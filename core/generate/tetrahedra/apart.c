@@ -9,9 +9,10 @@
 #include "core/generate/tetrahedra/private.h"
 #include "core/mesh/common.h"
 
-#define CELL 0.12   /* volume of a cell whose edges have length 1 */
 #define BESIDE 1e-4 /* of the diagonal: distance from a surface at which the pieces on its sides are looked up */
 #define SPIKE_ROUNDS 3
+#define ISLAND 1 /* wanted cells: smaller islands of a piece are given to the piece around them */
+#define LOST 2   /* edges of the lattice: a point farther from all borders of the cells has none */
 #define CELLS_A_REPORT 1024
 
 typedef struct Parting {
@@ -19,10 +20,15 @@ typedef struct Parting {
   SporeBvh *tree[SPORE_TETRAHEDRA_PIECES]; /* of each piece */
 } Parting;
 
+/* Edge of a cell as large as the wanted ones. */
+static double wanted_edge(const SporeTetrahedraWork *work) {
+  const SporeTetrahedraOptions *options = &work->options;
+  return options->cells ? cbrt(work->volume / (SPORE_TETRAHEDRA_CELL * (double)options->cells)) : options->size;
+}
+
 /* A wall inside another piece that is nowhere deeper than a cell is a second wall of that piece, and has no cells. */
 static void choose_pieces(SporeTetrahedraWork *work) {
-  const SporeTetrahedraOptions *options = &work->options;
-  const double edge = options->cells ? cbrt(work->volume / (CELL * (double)options->cells)) : options->size;
+  const double edge = wanted_edge(work);
   for (size_t i = 0; i < work->piece_count; i++) {
     SporeTetrahedraPiece *piece = work->piece + i;
     const bool inner = piece->role == SPORE_PIECE_INSIDE && piece->in >= 0 && piece->depth[1] > edge;
@@ -97,7 +103,8 @@ static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
 static bool find_borders(const Parting *parting, SporeError *error) {
   SporeTetrahedraWork *work = parting->work;
   work->borders = SPORE_NEW_ARRAY(double, 3 * work->inner_count);
-  if (!work->borders) return spore_mesh_no_memory(error);
+  work->border_sides = SPORE_NEW_ARRAY(uint32_t, 2 * work->inner_count);
+  if (!work->borders || !work->border_sides) return spore_mesh_no_memory(error);
   for (size_t i = 0; i < work->inner_count; i++) {
     const SporeVec3 p = spore_vec3_load(work->inner + 3 * i);
     uint32_t triangle = 0;
@@ -109,16 +116,46 @@ static bool find_borders(const Parting *parting, SporeError *error) {
         spore_vec3(0, 0, 0));
     const uint32_t behind = piece_around(parting, spore_vec3_add_scaled(p, -BESIDE, normal)),
                    before = piece_around(parting, spore_vec3_add_scaled(p, BESIDE, normal));
-    if (behind && before && behind != before) spore_vec3_store(work->borders + 3 * work->border_count++, p);
+    if (!behind || !before || behind == before) continue;
+    work->border_sides[2 * work->border_count] = behind, work->border_sides[2 * work->border_count + 1] = before;
+    spore_vec3_store(work->borders + 3 * work->border_count++, p);
   }
   return true;
+}
+
+/* Leaves out points that no border of the cells is near: a piece is too thin for the lattice there. Such a point would
+ * let other borders move as far. */
+static bool drop_lost_borders(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeError *error) {
+  const double near = LOST * cbrt(work->volume / (SPORE_TETRAHEDRA_CELL * (double)mesh->tetrahedron_count));
+  SporeTriangleMesh borders = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  const size_t all = work->border_count;
+  if (!all) return true;
+  if (!spore_tetrahedral_mesh_borders(mesh, &borders.triangles, &borders.triangle_count, error)) return false;
+  SporeBvh *tree = borders.triangle_count ? spore_bvh_create(&borders, error) : NULL;
+  const bool done = tree || !borders.triangle_count;
+  work->border_count = 0;
+  for (size_t i = 0; tree && i < all; i++) {
+    const SporeVec3 p = spore_vec3_load(work->borders + 3 * i);
+    const size_t to = work->border_count;
+    if (spore_bvh_distance(tree, p, NULL, NULL) > near) continue;
+    spore_vec3_store(work->borders + 3 * to, p);
+    memmove(work->border_sides + 2 * to, work->border_sides + 2 * i, 2 * sizeof *work->border_sides);
+    work->border_count++;
+  }
+  work->border_lost = 1 - (double)work->border_count / (double)all;
+  spore_bvh_free(tree);
+  spore_free(borders.triangles);
+  return done;
 }
 
 bool spore_tetrahedra_part(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
   Parting parting = {.work = work};
   choose_pieces(work);
-  const bool done = spore_tetrahedra_piece_trees(work, parting.tree, error) && find_borders(&parting, error) &&
-                    label_cells(&parting, mesh, error) && remove_spikes(mesh, error);
+  const bool done =
+      spore_tetrahedra_piece_trees(work, parting.tree, error) && find_borders(&parting, error) &&
+      label_cells(&parting, mesh, error) && remove_spikes(mesh, error) &&
+      spore_tetrahedra_join_islands(mesh, ISLAND * SPORE_TETRAHEDRA_CELL * pow(wanted_edge(work), 3), error) &&
+      drop_lost_borders(work, mesh, error);
   for (size_t i = 0; i < SPORE_TETRAHEDRA_PIECES; i++) spore_bvh_free(parting.tree[i]);
   return done;
 }
@@ -126,6 +163,7 @@ bool spore_tetrahedra_part(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh
 bool spore_tetrahedra_measure_parted(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh,
                                      SporeTetrahedraReport *report, SporeError *error) {
   SporeTriangleMesh borders = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  report->border_lost = work->border_lost;
   for (size_t c = 0; c < mesh->tetrahedron_count; c++) work->piece[mesh->labels[c] - 1].cells++;
   if (!spore_tetrahedral_mesh_borders(mesh, &borders.triangles, &borders.triangle_count, error)) return false;
   report->shared_faces = borders.triangle_count;

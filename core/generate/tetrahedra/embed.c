@@ -10,7 +10,6 @@
 #include "core/mesh/common.h"
 
 #define CELLS_A_CUBE 12 /* of the lattice */
-#define CELL 0.12       /* volume of a cell whose edges have length 1 */
 #define EDGE_SCALE 0.7  /* circumradius bound of cells whose edges have length 1 */
 #define FINE 12.0       /* cells of the first lattice for each wanted cell */
 #define USUAL 5000.0    /* wanted cells: above this, the first lattice has fewer cells for each wanted cell */
@@ -22,9 +21,11 @@
 #define NEAR 0.9 /* of the tolerance: the wanted distance of a lattice */
 #define POINTS 4 /* of the surface, for each cell */
 #define LEAST_POINTS 1000
-#define BORDER_TURNS 2 /* of moving the borders between pieces, before the lattice is coarsened */
-#define GOAL 14        /* degrees, for the least angle */
-#define REGION 0.8     /* edge of the lattice, as a share of the least size of a region */
+#define BORDER_TURNS 2  /* of moving the borders between pieces, before the lattice is coarsened */
+#define MOST_APART 1.05 /* times as many cells as wanted: of more, a thin piece is merged */
+#define NEAR_APART 1    /* wanted edges: the skin is not moved farther, as long as there are pieces to merge */
+#define GOAL 14         /* degrees, for the least angle */
+#define REGION 0.8      /* edge of the lattice, as a share of the least size of a region */
 
 /* Edge of a lattice with this number of cells. */
 static double edge_of(const SporeTetrahedraWork *work, double cells) {
@@ -86,7 +87,8 @@ static double count_of(const SporeSizing *sizing, const SporeTetrahedralMesh *me
       p[k] = spore_mesh_vertex(mesh->vertices, mesh->tetrahedra[4 * t + k]);
       middle[0] += 0.25 * p[k].x, middle[1] += 0.25 * p[k].y, middle[2] += 0.25 * p[k].z;
     }
-    sum += spore_vec3_volume(p[0], p[1], p[2], p[3]) / (6 * CELL * pow(spore_sizing_at(sizing, middle), 3));
+    sum += spore_vec3_volume(p[0], p[1], p[2], p[3]) /
+           (6 * SPORE_TETRAHEDRA_CELL * pow(spore_sizing_at(sizing, middle), 3));
   }
   return sum;
 }
@@ -95,7 +97,7 @@ static double count_of(const SporeSizing *sizing, const SporeTetrahedralMesh *me
 static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh) {
   const SporeTetrahedraOptions *options = &work->options;
   const size_t nodes = plan->grid.count[0] * plan->grid.count[1] * plan->grid.count[2];
-  double edge = options->cells ? cbrt(work->volume / (CELL * (double)options->cells)) : options->size;
+  double edge = options->cells ? cbrt(work->volume / (SPORE_TETRAHEDRA_CELL * (double)options->cells)) : options->size;
   for (int i = 0; i < 8; i++) {
     spore_sizing_plan_scale(plan, work, EDGE_SCALE * edge);
     for (size_t n = 0; n < nodes; n++) plan->grid.size[n] /= EDGE_SCALE;
@@ -107,7 +109,8 @@ static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, c
 /* Chooses the number of cells of the first lattice. */
 static bool choose_fine(const SporeTetrahedraWork *work, double *cells, SporeError *error) {
   const SporeTetrahedraOptions *options = &work->options;
-  double wanted = options->cells ? (double)options->cells : work->volume / (CELL * pow(options->size, 3));
+  double wanted =
+      options->cells ? (double)options->cells : work->volume / (SPORE_TETRAHEDRA_CELL * pow(options->size, 3));
   double fine = wanted * fmin(fmax(FINE * USUAL / wanted, LEAST_FINE), FINE), least = HUGE_VAL;
   for (size_t r = 0; r < options->region_count; r++) least = fmin(least, options->regions[r].value);
   *cells = fmax(fine, CELLS_A_CUBE * work->volume / pow(REGION * least, 3));
@@ -118,19 +121,44 @@ static bool choose_fine(const SporeTetrahedraWork *work, double *cells, SporeErr
                          *cells, MOST_FINE);
 }
 
-static bool reduce(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
+/* Coarsens the mesh. limits: as of spore_tetrahedra_coarsen. */
+static bool reduce(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, const SporeSizing *sizing, size_t cells,
+                   const double limits[2], SporeError *error) {
   const SporeProgress progress = {spore_tetrahedra_report, work};
-  SporeSizingPlan plan;
   SporeSkinPoints points = {0};
-  bool done = spore_sizing_plan_create(&plan, work, &work->surface, error);
-  if (!done) return false;
-  size_edges(&plan, work, mesh);
-  size_t cells = work->options.cells ? work->options.cells : (size_t)ceil(count_of(&plan.grid, mesh));
-  done = spore_tetrahedra_points(work, mesh, POINTS * cells + LEAST_POINTS, &points, error) &&
-         spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, &plan.grid, cells, NULL,
-                                  SPORE_TETRAHEDRA_KEPT, &progress, error) &&
-         spore_tetrahedral_mesh_drop_unused(mesh, error);
+  const bool done = spore_tetrahedra_points(work, mesh, POINTS * cells + LEAST_POINTS, &points, error) &&
+                    spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, sizing, cells, NULL,
+                                             SPORE_TETRAHEDRA_KEPT, limits, &progress, error) &&
+                    spore_tetrahedral_mesh_drop_unused(mesh, error);
   spore_skin_points_clear(&points);
+  return done;
+}
+
+/* Coarsens a mesh whose pieces are kept apart. Where that leaves too many cells, the thin piece that costs most is
+ * merged, and so on. */
+static bool reduce_apart(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, const SporeSizing *sizing, size_t cells,
+                         SporeError *error) {
+  const double edge = cbrt(work->volume / (SPORE_TETRAHEDRA_CELL * (double)cells));
+  double limits[2] = {spore_coarsen_limits[0], NEAR_APART};
+  bool merged = work->options.cells > 0;
+  while (merged) {
+    if (!reduce(work, mesh, sizing, cells, limits, error)) return false;
+    limits[0] = NEAR_APART;
+    if ((double)mesh->tetrahedron_count <= MOST_APART * (double)cells) break;
+    if (!spore_tetrahedra_merge_thin(work, mesh, edge, &merged, error)) return false;
+  }
+  limits[1] = spore_coarsen_limits[1];
+  return reduce(work, mesh, sizing, cells, limits, error);
+}
+
+/* Makes the cells of a lattice fewer, of the wanted sizes. */
+static bool make_fewer(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
+  SporeSizingPlan plan;
+  if (!spore_sizing_plan_create(&plan, work, &work->surface, error)) return false;
+  size_edges(&plan, work, mesh);
+  const size_t cells = work->options.cells ? work->options.cells : (size_t)ceil(count_of(&plan.grid, mesh));
+  const bool done = mesh->labels ? reduce_apart(work, mesh, &plan.grid, cells, error)
+                                 : reduce(work, mesh, &plan.grid, cells, spore_coarsen_limits, error);
   spore_sizing_plan_clear(&plan);
   return done;
 }
@@ -144,9 +172,10 @@ bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *me
   bool done = choose_fine(work, &cells, error) && make_fine(work, cells, mesh, error);
   if (done && work->options.apart)
     done = spore_tetrahedra_part(work, mesh, error) &&
-           spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), BORDER_TURNS, mesh, error);
+           spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), BORDER_TURNS, mesh, error) &&
+           spore_tetrahedra_measure_places(work, mesh, error);
   work->fraction = from + 0.4 * share, work->share = 0.5 * share;
-  done = done && reduce(work, mesh, error);
+  done = done && make_fewer(work, mesh, error);
   work->fraction = from + 0.9 * share, work->share = 0.1 * share;
   done = done &&
          spore_tetrahedra_improve(mesh, mesh->labels ? &mesh->labels : NULL, spore_tetrahedra_bounds(work), GOAL,

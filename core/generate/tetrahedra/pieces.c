@@ -116,6 +116,8 @@ static SporePieceWall wall_of(const Look *look, const SporeTetrahedraPiece *told
 static void tell(const SporeTetrahedraWork *work, Look *look, SporeTetrahedraPiece *told) {
   const SporePiece *piece = look->piece;
   *told = (SporeTetrahedraPiece){.in = -1,
+                                 .merged = -1,
+                                 .thickness = piece->closed ? 4 * fabs(piece->volume) / piece->area : 0,
                                  .triangles = piece->triangles,
                                  .holes = piece->holes,
                                  .open_edges = piece->open_edges,
@@ -305,12 +307,43 @@ static char *merged_text(const SporeTetrahedraReport *report, const SporeTetrahe
   }
 }
 
+double spore_tetrahedra_cells_for(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
+  const double cells =
+      report->volume_given / (SPORE_TETRAHEDRA_CELL * pow(piece->thickness / SPORE_TETRAHEDRA_THIN, 3));
+  const double step = pow(10, floor(log10(cells)) - 1);
+  return step * ceil(cells / step);
+}
+
+/* How many cells would do for a piece that has none. */
+static char *enough_text(double enough) {
+  if (enough > SPORE_TETRAHEDRA_CELLS) return g_strdup(_("no number of cells would do"));
+  return g_strdup_printf(_("about %.0f cells in all would do"), enough);
+}
+
+/* Why a piece that is kept apart has no cells, and how many would do. */
+static char *no_cells_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
+  size_t cells = 0;
+  if (!(piece->thickness > 0))
+    return g_strdup(_("no cells of its own: it is too thin for them, or its place is that of smaller pieces"));
+  for (size_t i = 0; i < report->piece_count; i++) cells += report->piece[i].cells;
+  const double enough = spore_tetrahedra_cells_for(report, piece), thickness = 1e3 * piece->thickness;
+  g_autofree char *remedy = enough_text(enough);
+  if (piece->merged < 0 && enough < (double)cells)
+    return g_strdup(_("no cells of its own: its place is that of smaller pieces, or a hollow"));
+  if (piece->merged < 0)
+    return g_strdup_printf(_("about %.2g mm thick, too thin for cells of its own: left to what is around it; %s"),
+                           thickness, remedy);
+  g_autofree char *to = spore_tetrahedra_piece_called(report, piece->merged);
+  return g_strdup_printf(_("about %.2g mm thick, too thin for cells of its own: merged with %s, which it touches; %s"),
+                         thickness, to, remedy);
+}
+
 /* What a piece is to the solid, and its cells where pieces are kept apart. */
 static char *role_text(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece, bool apart) {
   if (!apart || !piece->parted) return merged_text(report, piece);
   g_autofree char *in =
       piece->in >= 0 && report->piece[piece->in].parted ? spore_tetrahedra_piece_called(report, piece->in) : NULL;
-  if (!piece->cells) return g_strdup(_("finer than the cells, it has none; ask for more or smaller cells"));
+  if (!piece->cells) return no_cells_text(report, piece);
   if (!in) return g_strdup_printf(_("cells of its own: %zu"), piece->cells);
   return g_strdup_printf(_("cells of its own: %zu; %.0f %% of it lie inside, most of that in %s"), piece->cells,
                          100 * piece->inside_share, in);

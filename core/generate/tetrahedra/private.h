@@ -12,6 +12,8 @@
 #define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */
 #define SPORE_TETRAHEDRA_KEPT (SPORE_TETRAHEDRA_ANGLE + 0.75) /* kept by moves that serve another purpose */
 #define SPORE_TETRAHEDRA_CLOSING 0.3 /* a winding number nearer than this to one half lies in a hole of the surface */
+#define SPORE_TETRAHEDRA_CELL 0.12   /* volume of a cell whose edges have length 1 */
+#define SPORE_TETRAHEDRA_THIN 0.8    /* edges: pieces as thin as that are merged where there are too many cells */
 #define SPORE_TETRAHEDRA_COUNT 0.1   /* tolerance of the number of cells, as a logarithm */
 
 /* Parts of the solid thinner than the cells of a lattice: points that bound such walls and slits. */
@@ -35,7 +37,9 @@ typedef struct SporeTetrahedraWork {
   double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside the solid */
   size_t bounding_count, inner_count;
   double *borders; /* with options.apart: the inner points between two pieces that are kept apart (border_count x 3) */
+  uint32_t *border_sides; /* border_count x 2: 1 + the pieces on the two sides of each */
   size_t border_count;
+  double border_lost; /* share of the borders that lay where a piece is too thin for the first lattice: left out */
   SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* of the surface */
   size_t unwanted;                                     /* pieces that were left out as asked */
   size_t piece_count, pieces;                          /* told of, and all */
@@ -76,6 +80,8 @@ bool spore_tetrahedra_keep_largest(SporeTetrahedraWork *work, SporeError *error)
 /* Appends a line about each piece of the report, where there are several or one has holes. */
 void spore_tetrahedra_say_pieces(GString *text, const SporeTetrahedraOptions *options,
                                  const SporeTetrahedraReport *report);
+/* About how many cells in all a piece of that thickness takes to have cells of its own, to two digits. */
+double spore_tetrahedra_cells_for(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece);
 /* What to call a piece: by the name of its part, with a number where several pieces have the same name. g_free. */
 char *spore_tetrahedra_piece_called(const SporeTetrahedraReport *report, int number);
 /* Appends a line about each kind of wall inside: how many pieces, which, their holes, and what to do. */
@@ -130,6 +136,16 @@ bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *me
 /* Gives each cell to a piece: mesh->labels. Sets `parted` of work->piece, and work->borders. False: no memory or
  * cancelled. */
 bool spore_tetrahedra_part(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
+/* Islands of cells (of one label, by faces) of less than this volume, except the largest of each label, go to the
+ * label that they touch most. */
+bool spore_tetrahedra_join_islands(SporeTetrahedralMesh *mesh, double least, SporeError *error);
+/* Fills `thickness` of those of work->piece that have cells: 4 volume / area of their place. */
+bool spore_tetrahedra_measure_places(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeError *error);
+/* Of the pieces thinner than SPORE_TETRAHEDRA_THIN edges that touch another one, takes the one with most cells beyond
+ * those of that edge that its volume has room for. The smaller one of that piece and of the one that it touches most is
+ * merged with the larger one, and its `merged` is set. *merged: whether there was such a piece. */
+bool spore_tetrahedra_merge_thin(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, double edge, bool *merged,
+                                 SporeError *error);
 /* Fills `cells` of work->piece, and shared_faces and border_distance of the report. */
 bool spore_tetrahedra_measure_parted(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh,
                                      SporeTetrahedraReport *report, SporeError *error);

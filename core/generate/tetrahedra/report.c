@@ -66,6 +66,28 @@ static void say_apart_faces(GString *text, const SporeTetrahedraOptions *options
   g_string_append_printf(text,
                          _("pieces kept apart share %zu faces, at most %.2f %% of the diagonal from their surfaces\n"),
                          report->shared_faces, 100 * report->border_distance);
+  if (report->border_lost >= LEAST_SAID)
+    g_string_append_printf(text,
+                           _("%.1f %% of the surfaces between pieces have no such faces: a piece is too thin there\n"),
+                           100 * report->border_lost);
+}
+
+/* A remark on pieces that were merged, as they are too thin for so few cells. */
+static void say_merged(GString *text, const SporeTetrahedraOptions *options, const SporeTetrahedraReport *report) {
+  size_t merged = 0;
+  double enough = 0;
+  for (size_t i = 0; i < report->piece_count; i++) {
+    const SporeTetrahedraPiece *piece = report->piece + i;
+    if (piece->merged < 0) continue;
+    merged++;
+    const double cells = spore_tetrahedra_cells_for(report, piece);
+    if (cells <= SPORE_TETRAHEDRA_CELLS) enough = fmax(enough, cells);
+  }
+  if (enough > 0)
+    g_string_append_printf(text,
+                           _("%zu cells were asked for: pieces too thin for so few were merged with others: %zu; about "
+                             "%.0f cells would do for all that cells can show\n"),
+                           options->cells, merged, enough);
 }
 
 /* Remarks on requests that were not met. */
@@ -94,6 +116,7 @@ char *spore_tetrahedra_remarks(const SporeTetrahedralMesh *mesh, const SporeTetr
   say_apart(text, report);
   say_left_out(text, options, report);
   say_apart_faces(text, options, report);
+  say_merged(text, options, report);
   say_far(text, mesh, options, report);
   say_missed(text, mesh, options, report);
   return g_string_free(text, FALSE);
@@ -141,6 +164,7 @@ void spore_tetrahedra_to_metres(SporeTetrahedraReport *report, const SporeTetrah
     for (int k = 0; k < 3; k++) piece->size[k] *= diagonal;
     piece->depth[0] *= diagonal, piece->depth[1] *= diagonal;
     piece->area *= diagonal * diagonal;
+    piece->thickness *= diagonal;
   }
   report->area_given = work->area * diagonal * diagonal;
   report->volume_change = report->volume / report->volume_given - 1;

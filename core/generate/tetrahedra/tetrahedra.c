@@ -127,6 +127,7 @@ static void clear(SporeTetrahedraWork *work) {
   spore_free(work->bounding);
   spore_free(work->inner);
   spore_free(work->borders);
+  spore_free(work->border_sides);
 }
 
 /* Largest distance between a prepared surface and the bounds of the solid. Where the prepared surface closes a hole of

@@ -35,6 +35,7 @@ typedef struct SporeTetrahedraOptions {
   bool largest;     /* the piece of the largest area is meshed, with what lies inside it; else all are, as one solid */
   bool apart; /* each piece gets cells of its own, with shared faces where pieces touch: result->labels has 1 + the
                  piece of the report of each cell. Where pieces overlap, the one of the least area has the place.
+                 Pieces too thin for the number of cells are merged until it is met, the costliest first.
                  By a lattice; not with curvature, a gap, regions or another method */
   double gap; /* m: openings narrower than this are closed by wrapping; 0: wrapping uses about half an edge */
   const SporeGenerateRegion *regions;
@@ -78,7 +79,10 @@ typedef struct SporeTetrahedraPiece {
   double inside_share;  /* share of the area that lies inside the solid */
   double depth[2];      /* least and largest distance from the surface of the piece `in`, m, of what lies inside */
   bool parted;          /* with options.apart: the piece is to have cells of its own */
-  size_t cells;         /* that it has; a piece finer than the cells has none */
+  size_t cells;         /* that it has; a piece too thin for the cells has none */
+  double thickness;     /* m, with options.apart: about 4 volume / area, of its place in the first lattice, or, where it
+                           has none there, of what it encloses; 0: unknown */
+  int merged;           /* with options.apart: piece that its cells went to, as it is too thin; -1: none */
 } SporeTetrahedraPiece;
 
 typedef struct SporeTetrahedraReport {
@@ -98,8 +102,9 @@ typedef struct SporeTetrahedraReport {
   size_t pieces, pieces_given; /* connected pieces: of the cells, by shared vertices; of the surface, by shared edges */
   size_t unwanted;             /* pieces that were left out by options.largest */
   size_t shared_faces;         /* with options.apart: between cells of two pieces */
-  double border_distance;      /* largest distance of the surfaces between these pieces from the faces shared there, of
-                                  the diagonal */
+  double border_lost;          /* share of the surfaces between these pieces where a piece is too thin for a border */
+  double border_distance;      /* largest distance of the rest of these surfaces from the faces shared there, of the
+                                  diagonal */
   size_t piece_count, piece_total;                     /* told of (those of the largest area), and all */
   SporeTetrahedraPiece piece[SPORE_TETRAHEDRA_PIECES]; /* piece_count, the largest area first */
   double small_components; /* share of the volume: small pieces left out, whose piece of the surface has a larger piece
