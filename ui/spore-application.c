@@ -36,6 +36,8 @@ static const struct {
     {"win.present", {"F11"}},
     {"win.step", {"F6"}},
     {"win.reset", {"<Shift>F5"}},
+    {"win.step-back", {"<Shift>F6"}},
+    {"win.bookmark", {"<Control>b"}},
     {"win.apply-generated", {"<Control>Return"}},
     {"win.pick-places", {"<Control>e"}},
     {"win.filter", {"<Control>f"}},

@@ -128,6 +128,34 @@ static void act_reset(GSimpleAction *action, GVariant *parameter, gpointer data)
   spore_player_reset(((SporeWindow *)data)->player);
 }
 
+static void act_step_back(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_timeline_step_back(SPORE_TIMELINE(self->timeline), &error)) spore_window_failed(self, error);
+}
+
+static void act_go_to(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_timeline_go_to(SPORE_TIMELINE(self->timeline), g_variant_get_double(parameter), &error))
+    spore_window_failed(self, error);
+}
+
+static void act_replay(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_timeline_replay(SPORE_TIMELINE(self->timeline), &error)) spore_window_failed(self, error);
+}
+
+static void act_stay(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_player_stay(((SporeWindow *)data)->player);
+}
+
+static void act_bookmark(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  if (spore_timeline_bookmark(SPORE_TIMELINE(self->timeline))) spore_window_show_tab(self, self->timeline);
+}
+
 static void act_plot(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   if (spore_plots_show(SPORE_PLOTS(self->plots), g_variant_get_string(parameter, NULL)))
@@ -350,6 +378,11 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"play-pause", act_play_pause},
       {"step", act_step},
       {"reset", act_reset},
+      {"step-back", act_step_back},
+      {"go-to", act_go_to, "d"},
+      {"replay", act_replay},
+      {"stay", act_stay},
+      {"bookmark", act_bookmark},
       {"speed", NULL, "s", "'1'", change_speed},
       {"plot", act_plot, "s"},
       {"watch", act_watch, "s"},

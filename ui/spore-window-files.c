@@ -111,6 +111,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_plan_set_document(SPORE_PLAN(self->plan), self->document);
   spore_accuracy_set_document(SPORE_ACCURACY(self->accuracy), self->document);
   spore_plots_set_document(SPORE_PLOTS(self->plots), self->document, self->player);
+  spore_timeline_set_player(SPORE_TIMELINE(self->timeline), self->player);
   spore_exercise_panel_set_document(SPORE_EXERCISE_PANEL(self->exercise), self->document, self->player);
   spore_exercise_guide_set_document(SPORE_EXERCISE_GUIDE(self->guide), self->document, self->player);
   gtk_widget_hide(self->message_bar);

@@ -16,6 +16,7 @@
 #include "ui/panels/spore-outliner.h"
 #include "ui/panels/spore-plan.h"
 #include "ui/panels/spore-plots.h"
+#include "ui/panels/spore-timeline.h"
 #include "ui/panels/spore-problems.h"
 #include "ui/sim/spore-player.h"
 #include "ui/spore-window.h"
@@ -63,9 +64,9 @@ struct _SporeWindow {
   GtkWidget *header, *play_button, *play_image, *speed_button, *menu_button, *messages, *message_bar, *message,
       *message_remedy, *recovery_bar, *recovery_text, *hold_bar, *hold_text, *hold_button;
   SporeCause cause; /* of the message that is shown */
-  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *exercise, *guide, *controls,
-      *large_play, *large_play_image, *generator_panel, *middle, *bottom, *tabs, *log, *hint, *job_box, *job_label,
-      *job_bar;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *timeline, *exercise, *guide,
+      *controls, *large_play, *large_play_image, *generator_panel, *middle, *bottom, *tabs, *log, *hint, *job_box,
+      *job_label, *job_bar;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */

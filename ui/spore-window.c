@@ -184,6 +184,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, accuracy);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, plots);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, timeline);
   gtk_widget_class_bind_template_child(widget, SporeWindow, exercise);
   gtk_widget_class_bind_template_child(widget, SporeWindow, guide);
   gtk_widget_class_bind_template_child(widget, SporeWindow, controls);
@@ -217,6 +218,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_ACCURACY);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
   g_type_ensure(SPORE_TYPE_PLOTS);
+  g_type_ensure(SPORE_TYPE_TIMELINE);
   g_type_ensure(SPORE_TYPE_EXERCISE_PANEL);
   g_type_ensure(SPORE_TYPE_EXERCISE_GUIDE);
   g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);

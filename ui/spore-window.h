@@ -35,7 +35,8 @@
  *               film-attempts [s path, ax when they ended, s since 1970: one, or two side by side],
  *               film-attempts-dialog [ax],
  *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]
- *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state],
+ *   simulation  play, pause, play-pause, step, reset, step-back, go-to [d time, s], replay, stay (where it is, on its
+ *               way to another time), bookmark, speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-reach, show-figures (state), frame, view [s "front", "right" or "top"],

@@ -17,6 +17,14 @@ bool spore_world_post(SporeWorld *world, const SporeCommand *command) {
   return true;
 }
 
+size_t spore_world_commands_posted(const SporeWorld *world) {
+  return atomic_load_explicit(&world->commands.written, memory_order_acquire);
+}
+
+size_t spore_world_commands_applied(const SporeWorld *world) {
+  return atomic_load_explicit(&world->commands.applied, memory_order_acquire);
+}
+
 typedef struct Retuning {
   const void *fields;
   SporeError error;

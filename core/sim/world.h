@@ -597,5 +597,8 @@ typedef struct SporeCommand {
 /* Queues a command; the next step applies it when it begins. For one writer, on any thread. False: the queue is full
  * (1024 commands); `fields` still belong to the caller then. */
 bool spore_world_post(SporeWorld *world, const SporeCommand *command);
+/* Commands posted, and those of them that steps have applied, since the world was made. */
+size_t spore_world_commands_posted(const SporeWorld *world);
+size_t spore_world_commands_applied(const SporeWorld *world);
 
 #endif

@@ -376,6 +376,90 @@ static void test_recording_repeats(Fixture *fixture, gconstpointer data) {
 }
 
 /* What nobody took is recorded as its author wrote it. */
+static void await_way(SporeSession *session) {
+  double unused;
+  while (spore_session_is_going(session, &unused)) g_usleep(500);
+}
+
+static guint64 hash_after(SporeSession *session, guint64 step) {
+  spore_session_try_go_to(session, step);
+  await_way(session);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, step);
+  return spore_snapshot_hash(spore_session_snapshot(session));
+}
+
+#define PULLED 40 /* steps before tissue is pulled; the probe is led before and after */
+#define LET_GO 70
+
+/* A run that the mouse leads and pulls. hashes: after each step. */
+static void lead_and_pull(SporeSession *session, guint64 *hashes) {
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  guint32 probe = spore_world_find_body(world, "probe"), stone = spore_world_find_body(world, "stone");
+  for (guint step = 0; step < STEPS; step++) {
+    SporeDeviceState hand = {.position = {0.2 - 0.001 * step, 0, 0}, .orientation = {1}, .grip_rad = 1};
+    if (step % 7 == 0 && step < 100) spore_session_set_pointer(session, probe, &hand);
+    SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .body = stone, .vector = {0.1, 0.1, 0.1 * step}, .number = 50};
+    if (step >= PULLED && step < LET_GO) g_assert_true(spore_session_post(session, &pull));
+    SporeCommand let_go = {.kind = SPORE_COMMAND_RELEASE, .body = stone};
+    if (step == LET_GO) g_assert_true(spore_session_post(session, &let_go));
+    spore_session_step(session, 1);
+    hashes[step + 1] = spore_snapshot_hash(spore_session_snapshot(session));
+  }
+}
+
+/* Back and forth to any step, to the bit; what is played from there forgets what came after. */
+static void test_goes_back(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, data ? &fixture->track : NULL);
+  guint64 hashes[STEPS + 1] = {spore_snapshot_hash(spore_session_snapshot(session))};
+  lead_and_pull(session, hashes);
+  g_assert_cmphex(hashes[LET_GO], !=, hashes[PULLED]);
+  static const guint steps[] = {PULLED + 5, PULLED + 4, STEPS, 1, LET_GO + 1, 0, STEPS - 1};
+  for (guint i = 0; i < G_N_ELEMENTS(steps); i++) g_assert_cmphex(hash_after(session, steps[i]), ==, hashes[steps[i]]);
+  g_assert_cmpuint(spore_session_reached(session), ==, STEPS);
+  g_assert_cmphex(hash_after(session, PULLED), ==, hashes[PULLED]);
+  spore_session_step(session, 1); /* of its own: nothing pulls */
+  g_assert_cmpuint(spore_session_reached(session), ==, PULLED + 1);
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), !=, hashes[PULLED + 1]);
+  guint64 own = spore_snapshot_hash(spore_session_snapshot(session));
+  spore_session_try_go_to(session, STEPS);
+  await_way(session);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, PULLED + 1);
+  g_assert_cmphex(hash_after(session, 3), ==, hashes[3]);
+  g_assert_cmphex(hash_after(session, PULLED + 1), ==, own);
+  spore_session_set_speed(session, 4);
+  spore_session_try_replay(session);
+  await_way(session);
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, own);
+  spore_session_reset(session);
+  g_assert_cmpuint(spore_session_reached(session), ==, 0);
+  spore_session_free(session);
+}
+
+/* A way ends where it is when it is told to, and by a reset; of a world that was changed there is no way back. */
+static void test_way_ends(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  spore_session_step(session, STEPS);
+  spore_session_try_go_to(session, STEPS - 1);
+  spore_session_stay(session);
+  await_way(session);
+  guint64 step = spore_session_snapshot(session)->step;
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==,
+                  loop_hash(fixture, &fixture->track, (guint)step));
+  spore_session_try_go_to(session, 1);
+  spore_session_reset(session);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
+  spore_session_step(session, 5);
+  g_assert_true(spore_session_knows_past(session));
+  spore_session_change(session);
+  g_assert_false(spore_session_knows_past(session));
+  spore_session_try_go_to(session, 2);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 5);
+  spore_session_reset(session);
+  g_assert_true(spore_session_knows_past(session));
+  spore_session_try_go_to(session, 1);
+  spore_session_free(session); /* at once */
+}
+
 static void test_recording_keeps_track(Fixture *fixture, gconstpointer data) {
   SporeSession *session = new_session(fixture, 1, &fixture->track);
   spore_session_step(session, 30);
@@ -520,6 +604,9 @@ int main(int argc, char **argv) {
       {"recording-repeats", test_recording_repeats},
       {"recording-repeats-taken-over", test_recording_repeats, TRUE},
       {"recording-keeps-track", test_recording_keeps_track},
+      {"goes-back", test_goes_back},
+      {"goes-back-taken-over", test_goes_back, TRUE},
+      {"way-ends", test_way_ends, TRUE},
       {"carry-over", test_carry_over},
       {"numbers", test_numbers},
       {"numbers-thin-out", test_numbers_thin_out},

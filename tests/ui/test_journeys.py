@@ -1240,7 +1240,7 @@ def let_time_pass(editor, seconds=0.05):
 
 @check
 def play_pause_step_reset():
-    """time advances while playing, stands while paused, goes one step, and back to 0."""
+    """time advances while playing, stands while paused, goes one step, back, to a bookmark, through it all again, and back to 0; where the scene was changed meanwhile it does not go back, and says so."""
     with start() as editor:
         make_soft_ball(editor)
         editor.act("play")
@@ -1249,6 +1249,23 @@ def play_pause_step_reset():
         stood = standing_time(editor)
         editor.act("step")
         ui.wait(lambda: 0 < editor.time_s() - stood < 0.0051, "one step")
+        editor.act("step-back")
+        ui.wait(lambda: editor.time_s() == stood, "one step back")
+        editor.act("bookmark")
+        ui.wait(lambda: editor.says("label", f"^{stood:.3f} of "), "the timeline")
+        editor.act("play")
+        ui.wait(lambda: editor.time_s() > stood + 0.02, "more of the run")
+        editor.act("pause")
+        end = standing_time(editor)
+        editor.press(editor.find("push button", f"^{stood:.3f} s$"))
+        ui.wait(lambda: editor.says("label", f"^{stood:.3f} of {end:.3f} s$"), "the bookmark's time")
+        keep_picture(editor, "timeline")
+        editor.act("replay")
+        ui.wait(lambda: editor.says("label", f"^{end:.3f} of {end:.3f} s$"), "the end of the run")
+        editor.act("set-property", "(sss)", ("environment", "gravity", "0 -3 0"))
+        ui.wait(lambda: editor.says("label", "^The scene was changed while it ran"), "the reason why there is no way back")
+        editor.act("step-back")
+        ui.wait(lambda: "go back to the start first" in (editor.message() or ""), "the refusal")
         editor.act("reset")
         ui.wait(lambda: editor.time_s() == 0, "time 0")
 

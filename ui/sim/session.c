@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/haptic/pointer.h"
 #include "core/measure/pace.h"
+#include "ui/sim/session-past.h"
 
 /* A step reads a device once, or a few times when the monitor repeats the step. The queue is emptied after each step.
  * */
@@ -22,11 +23,6 @@
 /* How long the window waits for a step that may take minutes. */
 #define PATIENCE_US (G_USEC_PER_SEC / 20)
 
-typedef struct {
-  double time_s;
-  SporeDeviceState state;
-} Sample;
-
 /* Stands between the world and the devices of a body, and records their states. The pointer has priority over the track
  * that the scene gives the body: a body that the mouse took stays with the mouse until a reset. While no device has a
  * state, the recording holds the body's pose, so that the recording begins at time 0. */
@@ -35,9 +31,11 @@ typedef struct {
   SporeDevice *pointer;
   SporeDevice *script; /* plays the body's track; NULL: it has none */
   const SporeWorld *world;
+  const SporePast *repeats; /* what the device said before is said again; NULL: the devices are asked */
   guint32 body;
+  guint number; /* among the recorders */
   guint count;
-  Sample samples[SAMPLES_A_STEP];
+  SporePastInput samples[SAMPLES_A_STEP];
   /* In the last step. */
   gboolean led, driven; /* by the pointer; by any device */
 
@@ -62,6 +60,14 @@ struct SporeSession {
   GCond wake, stood;
   gboolean quit, playing, reset, standing;
   guint steps;
+  SporePast *past;
+  gboolean lost;  /* the past does not hold all that went into the run */
+  gboolean going; /* to the state after `target` steps, by the past */
+  gboolean anew;  /* the way begins at time 0 */
+  gboolean paced; /* the way takes as long as the run is to take */
+  gboolean stays; /* on the way: no further */
+  guint64 target;
+  guint64 reached; /* steps that the past holds */
   double speed;
   double factor;
   SporePace pace;
@@ -81,24 +87,36 @@ struct SporeSession {
   double factor_time;  /* s, simulated */
 };
 
+/* What is said now, of the pointer or the track. */
+static SporePastInput ask(Recorder *recorder, double time_s, const SporeDeviceCommand *command,
+                          const SporeDeviceState *last) {
+  SporeDevice *script = recorder->script;
+  SporePastInput input = {.time_s = time_s, .state = *last};
+  input.led = recorder->pointer->type->exchange(recorder->pointer, time_s, command, &input.state);
+  input.driven = input.led || (script && script->type->exchange(script, time_s, command, &input.state));
+  if (input.driven) return input;
+  const double *q = spore_world_q(recorder->world, recorder->body);
+  input.state = (SporeDeviceState){0};
+  memcpy(input.state.position, q, sizeof input.state.position);
+  memcpy(input.state.orientation, q + 3, sizeof input.state.orientation);
+  return input;
+}
+
+/* A step that is repeated asks again for the same time, and is told the same. */
 static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
                               SporeDeviceState *state) {
   Recorder *recorder = (Recorder *)device;
-  SporeDevice *script = recorder->script;
-  bool driven = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
-  recorder->led = driven;
-  if (!driven && script) driven = script->type->exchange(script, time_s, command, state);
-  recorder->driven = driven;
-  SporeDeviceState kept = {0};
-  if (driven) {
-    kept = *state;
-  } else {
-    const double *q = spore_world_q(recorder->world, recorder->body);
-    memcpy(kept.position, q, sizeof kept.position);
-    memcpy(kept.orientation, q + 3, sizeof kept.orientation);
-  }
-  if (recorder->count < SAMPLES_A_STEP) recorder->samples[recorder->count++] = (Sample){time_s, kept};
-  return driven;
+  const SporePastInput *before =
+      recorder->repeats ? spore_past_find(recorder->repeats, recorder->number, time_s) : NULL;
+  if (!before && recorder->count > 0 && recorder->samples[recorder->count - 1].time_s == time_s)
+    before = &recorder->samples[recorder->count - 1];
+  SporePastInput input = before ? *before : ask(recorder, time_s, command, state);
+  input.time_s = time_s;
+  recorder->led = input.led;
+  recorder->driven = input.driven;
+  if (recorder->count < SAMPLES_A_STEP) recorder->samples[recorder->count++] = input;
+  if (input.driven) *state = input.state;
+  return input.driven;
 }
 
 /* The recorders are the session's and end with it. */
@@ -121,7 +139,11 @@ static gboolean make_recorders(SporeSession *session, GError **error) {
     const char *name = spore_world_body_name(world, body);
     if (spore_world_hand(world, body) != body) continue;
     Recorder *recorder = &session->recorders[session->recorder_count];
-    *recorder = (Recorder){.device.type = &recorder_type, .world = world, .body = body, .input = OPEN_HAND};
+    *recorder = (Recorder){.device.type = &recorder_type,
+                           .world = world,
+                           .body = body,
+                           .number = session->recorder_count,
+                           .input = OPEN_HAND};
     recorder->script = script_of(session->simulation, name);
     recorder->pointer = spore_pointer_device_create();
     if (!recorder->pointer)
@@ -129,6 +151,7 @@ static gboolean make_recorders(SporeSession *session, GError **error) {
     session->recorder_count++;
     spore_world_set_device(world, body, &recorder->device);
   }
+  session->past = spore_past_new(session->recorder_count);
   return TRUE;
 }
 
@@ -139,7 +162,7 @@ static gboolean same_pose(const SporeDeviceState *a, const SporeDeviceState *b) 
 }
 
 /* While a pose does not change, its first and last sample are enough. */
-static void keep_sample(SporeTrackChannel *channel, const Sample *sample) {
+static void keep_sample(SporeTrackChannel *channel, const SporePastInput *sample) {
   size_t n = channel->count;
   if (n > 0 && sample->time_s <= channel->time_s[n - 1]) return;
   if (n > 1 && same_pose(&sample->state, &channel->states[n - 1]) && same_pose(&sample->state, &channel->states[n - 2]))
@@ -155,7 +178,10 @@ static void drain_recorders(SporeSession *session) {
     const char *name = spore_world_body_name(session->simulation->world, recorder->body);
     SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
     if (!channel) channel = spore_track_add_channel(&session->recording, name);
-    for (guint s = 0; channel && s < recorder->count; s++) keep_sample(channel, &recorder->samples[s]);
+    for (guint s = 0; s < recorder->count; s++) {
+      if (channel) keep_sample(channel, &recorder->samples[s]);
+      if (!session->going) spore_past_add(session->past, i, &recorder->samples[s]);
+    }
     if (recorder->driven) recorder->input = recorder->samples[recorder->count - 1].state;
     recorder->count = 0;
   }
@@ -290,10 +316,18 @@ static void restart_exercise(SporeSession *session) {
   if (simulation->exercise) spore_exercise_restart(simulation->exercise, simulation->world);
 }
 
+/* What was to come after the state that the session went back to will not come. */
+static void go_on_anew(SporeSession *session) {
+  const SporeWorld *world = session->simulation->world;
+  guint64 step = spore_world_step_count(world);
+  if (step < session->reached) spore_past_cut(session->past, step, spore_world_time_s(world));
+}
+
 /* With the mutex held on both sides of the step. */
 static void take_step(SporeSession *session) {
   guint64 stride = session->stride;
   gboolean single = session->steps > 0;
+  if (!session->going) go_on_anew(session);
   g_mutex_unlock(&session->mutex);
   spore_world_step(session->simulation->world);
   spore_world_tidy(session->simulation->world);
@@ -302,6 +336,9 @@ static void take_step(SporeSession *session) {
   keep_measured(session, &measured);
   drain_recorders(session);
   watch_exercise(session);
+  if (session->going) return;
+  session->reached = spore_world_step_count(session->simulation->world);
+  spore_past_applied(session->past, spore_world_commands_applied(session->simulation->world), session->reached - 1);
 }
 
 static void take_paced_step(SporeSession *session) {
@@ -311,23 +348,68 @@ static void take_paced_step(SporeSession *session) {
   spore_pace_end(&session->pace, spore_world_time_s(world));
 }
 
-static void take_reset(SporeSession *session) {
+/* Time 0, with nothing forgotten of what went into the run. */
+static void restart(SporeSession *session) {
   g_atomic_int_set(&session->ending, 0);
-  session->steps = 0;
   spore_world_reset(session->simulation->world);
   restart_exercise(session);
   for (guint i = 0; i < session->recorder_count; i++) {
     Recorder *recorder = &session->recorders[i];
     spore_pointer_device_release(recorder->pointer);
+    recorder->repeats = NULL;
     recorder->count = 0;
     recorder->led = FALSE;
     recorder->input = OPEN_HAND;
   }
   spore_track_clear(&session->recording);
   start_measuring(session);
+}
+
+static void take_reset(SporeSession *session) {
+  const SporeWorld *world = session->simulation->world;
+  session->steps = 0;
+  session->going = session->stays = FALSE;
+  restart(session);
+  spore_past_clear(session->past);
+  session->reached = 0;
+  session->lost = spore_world_commands_applied(world) < spore_world_commands_posted(world);
   session->reset = FALSE;
   restart_pace(session);
   g_cond_broadcast(&session->stood);
+}
+
+/* Going to another state of the run. */
+
+static void begin_way(SporeSession *session) {
+  if (session->anew || spore_world_step_count(session->simulation->world) > session->target) restart(session);
+  if (session->anew) restart_pace(session);
+  session->anew = FALSE;
+  for (guint i = 0; i < session->recorder_count; i++) session->recorders[i].repeats = session->past;
+  if (session->simulation->exercise) spore_exercise_try_out(session->simulation->exercise);
+}
+
+/* The mouse holds again what it held there. */
+static void end_way(SporeSession *session) {
+  session->going = session->stays = FALSE;
+  for (guint i = 0; i < session->recorder_count; i++) {
+    Recorder *recorder = &session->recorders[i];
+    recorder->repeats = NULL;
+    if (recorder->led) spore_pointer_device_set(recorder->pointer, &recorder->input);
+  }
+  restart_pace(session);
+}
+
+/* One step of the way, or its end. */
+static void take_way(SporeSession *session) {
+  SporeWorld *world = session->simulation->world;
+  if (!session->stays) begin_way(session);
+  guint64 step = spore_world_step_count(world);
+  gboolean there = session->stays || step >= session->target;
+  const SporeCommand *command;
+  for (guint i = 0; !there && (command = spore_past_command(session->past, step, i)); i++)
+    spore_world_post(world, command);
+  if (!there) take_step(session);
+  if (there || spore_world_cancelled(world)) end_way(session);
 }
 
 static gpointer run(gpointer data) {
@@ -336,6 +418,10 @@ static gpointer run(gpointer data) {
   while (!session->quit) {
     if (session->reset) {
       take_reset(session);
+    } else if (session->going) {
+      gint64 left = session->paced && !session->anew && !session->stays ? time_left_us(session) : 0;
+      if (left > 0) g_cond_wait_until(&session->wake, &session->mutex, g_get_monotonic_time() + left);
+      else take_way(session);
     } else if (session->steps > 0) {
       take_step(session);
       session->steps--;
@@ -430,6 +516,7 @@ void spore_session_free(SporeSession *session) {
   g_free(session->recorders);
   if (session->pool) spore_pool_free(session->pool);
   spore_input_free(session->repeated);
+  spore_past_free(session->past);
   spore_track_clear(&session->recording);
   g_cond_clear(&session->stood);
   g_cond_clear(&session->wake);
@@ -534,8 +621,68 @@ gboolean spore_session_try_reset(SporeSession *session) {
 void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
   spore_simulation_carry_over(to->simulation, from->simulation);
   restart_exercise(to); /* of the state that it begins with */
-  spore_session_try_out(to);
+  spore_session_change(to);
   start_measuring(to);
+}
+
+gboolean spore_session_knows_past(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  gboolean knows = !session->lost;
+  g_mutex_unlock(&locked->mutex);
+  return knows;
+}
+
+double spore_session_step_s(const SporeSession *session) { return session->local_error.dt_s; }
+
+guint64 spore_session_reached(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  guint64 reached = session->reached;
+  g_mutex_unlock(&locked->mutex);
+  return reached;
+}
+
+/* With the mutex held. FALSE: it is on its way. */
+static gboolean go_to(SporeSession *session, guint64 step, gboolean anew) {
+  if (session->lost) return TRUE;
+  session->playing = FALSE;
+  session->steps = 0;
+  session->target = MIN(step, session->reached);
+  session->going = TRUE;
+  session->anew = session->paced = anew;
+  session->stays = FALSE;
+  return wait_patiently(session);
+}
+
+gboolean spore_session_try_go_to(SporeSession *session, guint64 step) {
+  g_mutex_lock(&session->mutex);
+  gboolean stands = go_to(session, step, FALSE);
+  g_mutex_unlock(&session->mutex);
+  return stands;
+}
+
+gboolean spore_session_try_replay(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  gboolean stands = go_to(session, session->reached, TRUE);
+  g_mutex_unlock(&session->mutex);
+  return stands;
+}
+
+gboolean spore_session_is_going(SporeSession *session, double *fraction) {
+  g_mutex_lock(&session->mutex);
+  gboolean going = session->going;
+  guint64 target = session->target;
+  g_mutex_unlock(&session->mutex);
+  *fraction = going && target > 0 ? fmin((double)spore_session_snapshot(session)->step / (double)target, 1) : 0;
+  return going;
+}
+
+void spore_session_stay(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  session->stays = session->going;
+  g_cond_signal(&session->wake);
+  g_mutex_unlock(&session->mutex);
 }
 
 void spore_session_set_speed(SporeSession *session, double speed) {
@@ -552,8 +699,13 @@ const SporeSnapshot *spore_session_snapshot(SporeSession *session) {
 }
 
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command) {
+  SporeWorld *world = session->simulation->world;
   spore_session_try_out(session);
-  return spore_world_post(session->simulation->world, command);
+  g_mutex_lock(&session->mutex);
+  gboolean posted = !session->going && spore_world_post(world, command);
+  if (posted) spore_past_post(session->past, spore_world_commands_posted(world), command);
+  g_mutex_unlock(&session->mutex);
+  return posted;
 }
 
 static Recorder *recorder_of(const SporeSession *session, guint32 body) {
@@ -676,6 +828,13 @@ void spore_session_try_out(SporeSession *session) {
   SporeExercise *exercise = session->simulation->exercise;
   g_mutex_lock(&session->mutex);
   if (exercise) spore_exercise_try_out(exercise);
+  g_mutex_unlock(&session->mutex);
+}
+
+void spore_session_change(SporeSession *session) {
+  spore_session_try_out(session);
+  g_mutex_lock(&session->mutex);
+  session->lost = TRUE;
   g_mutex_unlock(&session->mutex);
 }
 

@@ -33,12 +33,29 @@ gboolean spore_session_try_reset(SporeSession *session);
 /* Copies the state of bodies that both sessions have, by name, into a session that is not running. Its exercise is a
  * try-out. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
+/* Whether all is known that went into the run since time 0, so that the run can go back: not of a session that began
+ * with a state carried over, or was changed. */
+gboolean spore_session_knows_past(const SporeSession *session);
+/* Steps of the run so far; after going back, those to which the run can go forward again. The next step of its own
+ * forgets them. */
+guint64 spore_session_reached(const SporeSession *session);
+double spore_session_step_s(const SporeSession *session); /* s: of one step */
+/* Goes to the state after `step` steps, or as far as the run reached, and pauses: computes the run anew, to the bit,
+ * from time 0 or from where it stands, as fast as it goes. The exercise is a try-out then. Returns soon. FALSE: it is
+ * on its way. Nothing happens where the past is not known. */
+gboolean spore_session_try_go_to(SporeSession *session, guint64 step);
+/* Plays all of the run once more from time 0, at the speed that is set, and pauses at its end. Otherwise the same. */
+gboolean spore_session_try_replay(SporeSession *session);
+/* Whether it is on its way, and how far: 0 to 1. For the GTK thread. */
+gboolean spore_session_is_going(SporeSession *session, double *fraction);
+/* Ends the way where it is now. */
+void spore_session_stay(SporeSession *session);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
 double spore_session_get_speed(const SporeSession *session);
 
 /* Newest state. Valid until the next call. One reader: the GTK thread. */
 const SporeSnapshot *spore_session_snapshot(SporeSession *session);
-/* What a command does makes the exercise a try-out. */
+/* What a command does makes the exercise a try-out. FALSE: not taken, as on the way to another state. */
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
 /* Where the mouse holds the active body `body`. From then on the mouse moves that body, and not its track, until a
  * reset. */
@@ -69,8 +86,10 @@ gboolean spore_session_take_attempt(SporeSession *session, SporeExerciseState *s
 /* The input that the session was made with is that of an attempt, which is repeated: no attempt comes of it. Takes the
  * track, which lives as long as the session. Before the first step. */
 void spore_session_repeat(SporeSession *session, SporeTrack *input);
-/* The scene was changed: the exercise, if there is one, is a try-out until a reset. */
+/* The exercise, if there is one, is a try-out until a reset. */
 void spore_session_try_out(SporeSession *session);
+/* The world was changed otherwise than by a command of spore_session_post: the same, and the past is not known. */
+void spore_session_change(SporeSession *session);
 /* spore_exercise_skip_to, between two steps. FALSE: the exercise has no such step. */
 gboolean spore_session_skip_to(SporeSession *session, gsize step);
 

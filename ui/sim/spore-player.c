@@ -119,6 +119,11 @@ static gboolean make(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+gboolean spore_player_is_going(SporePlayer *self, double *fraction) {
+  double unused;
+  return self->session && spore_session_is_going(self->session, fraction ? fraction : &unused);
+}
+
 gboolean spore_player_is_making(SporePlayer *self) { return self->making || self->remake || self->next; }
 
 /* Following the document. */
@@ -131,9 +136,9 @@ static gboolean is_at_rest(SporePlayer *self) {
 static gboolean apply(SporePlayer *self, SporeObject *object, guint property) {
   const SporeParameter *parameter = &spore_object_type(object)->table->parameters[property];
   SporeSimulation *simulation = (SporeSimulation *)spore_session_simulation(self->session);
-  if (!spore_player_is_making(self) &&
+  if (!spore_player_is_making(self) && !spore_player_is_going(self, NULL) &&
       spore_simulation_apply(simulation, spore_editor_document_get(self->document), object, property)) {
-    spore_session_try_out(self->session);
+    spore_session_change(self->session);
     return TRUE;
   }
   if (parameter->change == SPORE_CHANGE_RESTART) self->from_start = TRUE;
@@ -242,6 +247,22 @@ void spore_player_step(SporePlayer *self) {
   if (spore_player_is_making(self)) self->steps++;
   else stands = stands && spore_session_try_step(self->session, 1);
   tell(self, stands);
+}
+
+gboolean spore_player_knows_past(SporePlayer *self) {
+  return has_session(self) && !spore_player_is_making(self) && spore_session_knows_past(self->session);
+}
+
+void spore_player_go_to(SporePlayer *self, guint64 step) {
+  if (spore_player_knows_past(self)) tell(self, spore_session_try_go_to(self->session, step));
+}
+
+void spore_player_replay(SporePlayer *self) {
+  if (spore_player_knows_past(self)) tell(self, spore_session_try_replay(self->session));
+}
+
+void spore_player_stay(SporePlayer *self) {
+  if (has_session(self)) spore_session_stay(self->session);
 }
 
 void spore_player_repeat(SporePlayer *self, const char *file) {
