@@ -53,15 +53,29 @@ SporePathPlace spore_path_follow(SporeSplineKnots knots, const double *points, d
   return spore_path_at(knots, points, parameter);
 }
 
-SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, SporeVec3 p) {
+static double sample_parameter(SporeSplineKnots knots, size_t i) {
+  return fmin(fmax(spore_spline_part(knots, SAMPLES, i), 0), spore_spline_end(knots));
+}
+
+size_t spore_path_sample_count(SporeSplineKnots knots) { return SAMPLES * knots.span_count + 1; }
+
+void spore_path_sample(SporeSplineKnots knots, const double *points, double *samples) {
+  size_t count = spore_path_sample_count(knots);
+  for (size_t i = 0; i < count; i++)
+    spore_vec3_store(samples + 3 * i, spore_path_at(knots, points, sample_parameter(knots, i)).position);
+}
+
+SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, const double *samples, SporeVec3 p) {
   assert(knots.span_count > 0);
-  double best = 0, least = HUGE_VAL;
-  for (size_t i = 0; i <= SAMPLES * knots.span_count; i++) {
-    SporePathPlace place = spore_path_at(knots, points, spore_spline_part(knots, SAMPLES, i));
-    double distance = spore_vec3_distance(p, place.position);
-    if (distance < least) least = distance, best = place.parameter;
+  size_t best = 0, count = spore_path_sample_count(knots);
+  double least = HUGE_VAL;
+  for (size_t i = 0; i < count; i++) {
+    SporeVec3 sample =
+        samples ? spore_vec3_load(samples + 3 * i) : spore_path_at(knots, points, sample_parameter(knots, i)).position;
+    double distance = spore_vec3_distance(p, sample);
+    if (distance < least) least = distance, best = i;
   }
-  return spore_path_follow(knots, points, best, p);
+  return spore_path_follow(knots, points, sample_parameter(knots, best), p);
 }
 
 /* Within one span. */

@@ -26,8 +26,11 @@ SporePathPlace spore_path_at(SporeSplineKnots knots, const double *points, doubl
 /* The place nearest to p among those near `start`: SPORE_PATH_REACH at most to either side, downhill all the way.
  * Newton's method to rounding, so that it is a smooth function of points and p. */
 SporePathPlace spore_path_follow(SporeSplineKnots knots, const double *points, double start, SporeVec3 p);
-/* The nearest of all. */
-SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, SporeVec3 p);
+/* Where the search for the nearest of all begins. samples: count x 3, m. */
+size_t spore_path_sample_count(SporeSplineKnots knots);
+void spore_path_sample(SporeSplineKnots knots, const double *points, double *samples);
+/* The nearest of all. samples: of spore_path_sample, for who asks for many p; NULL: made on the way. */
+SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, const double *samples, SporeVec3 p);
 /* Length from one parameter to another, m; negative where it goes back. By Gauss' rule of three points a span or part
  * of one: to rounding's neighbourhood over a fraction of a span, to 1e-4 of the length over bent ones. */
 double spore_path_length(SporeSplineKnots knots, const double *points, double from, double to);

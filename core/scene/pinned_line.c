@@ -26,7 +26,7 @@ static gboolean is_within(const PinnedLine *line, double parameter) {
 /* Parameter at which the line leaves the radius, seen from the place nearest to the pin; that place itself, where the
  * line does not enter the radius. */
 static double edge_of(const PinnedLine *line, double end) {
-  double start = spore_path_seek(line->knots, line->points, line->centre).parameter, edge = start;
+  double start = spore_path_seek(line->knots, line->points, NULL, line->centre).parameter, edge = start;
   size_t parts = PARTS * line->knots.span_count;
   double step = (end - start) / (double)parts;
   for (size_t i = 0; i <= parts && is_within(line, start + (double)i * step); i++) edge = start + (double)i * step;

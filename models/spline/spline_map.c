@@ -18,6 +18,7 @@ typedef struct Spline {
   SporeSplineKnots knots;
   const double *control, *arms;
   double size, slack;
+  const double *samples; /* of spore_path_sample, where places are sought */
 } Spline;
 
 typedef struct Row {
@@ -101,7 +102,7 @@ static bool find_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
 static bool map_point(const Spline *spline, const double *point, size_t index, double *anchor, Row *row,
                       SporeError *error) {
   SporeVec3 p = spore_vec3_load(point);
-  SporePathPlace place = spore_path_seek(spline->knots, spline->control, p);
+  SporePathPlace place = spore_path_seek(spline->knots, spline->control, spline->samples, p);
   if (anchor) {
     anchor[0] = place.parameter;
     spore_vec3_store(anchor + 1, spore_vec3_sub(p, place.position));
@@ -128,7 +129,7 @@ static bool give_room(SporeMapping *mapping) {
 void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping) {
   assert(mapping->anchors);
   double size = spore_points_size(control, knots.span_count + 3);
-  Spline spline = {knots, control, arms, size, WRITTEN * size}, onto = spline;
+  Spline spline = {knots, control, arms, size, WRITTEN * size, NULL}, onto = spline;
   onto.slack = HUGE_VAL;
   uint32_t filled = 0;
   for (size_t i = 0; i < mapping->point_count; i++) {
@@ -151,13 +152,15 @@ bool spore_spline_map(SporeSplineKnots knots, const double *control, const doubl
                       SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
-  Spline spline = {knots, control, arms, spore_points_size(control, knots.span_count + 3), slack};
+  double *samples = SPORE_NEW_ARRAY(double, 3 * spore_path_sample_count(knots));
+  Spline spline = {knots, control, arms, spore_points_size(control, knots.span_count + 3), slack, samples};
   spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   double *anchors = follows ? SPORE_NEW_ARRAY(double, 4 * count) : NULL;
-  bool good = blocks && weights && (anchors || !follows);
-  if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
+  bool good = samples && blocks && weights && (anchors || !follows);
+  if (good) spore_path_sample(knots, control, samples);
+  else spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
   for (size_t i = 0; good && i < count && (good = spore_mapping_goes_on(cancel, error)); i++) {
     Row row;
     good = map_point(&spline, points + 3 * i, i, anchors ? anchors + 4 * i : NULL, &row, error);
@@ -165,6 +168,7 @@ bool spore_spline_map(SporeSplineKnots knots, const double *control, const doubl
     memcpy(weights + WIDTH * i, row.weight, sizeof row.weight);
   }
   good = good && spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
+  spore_free(samples);
   spore_free(blocks);
   spore_free(weights);
   if (good && follows && !give_room(mapping)) {

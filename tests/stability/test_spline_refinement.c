@@ -387,7 +387,7 @@ static void follow(double twist) {
   SporeSplineKnots knots = body->model->type->line->path(body->model);
   for (size_t i = 0; i < count; i++) {
     SporeVec3 at = spore_mapping_position(&body->collision.spheres, i, world->state.q + body->q_offset);
-    parameter[i] = spore_path_seek(knots, world->state.q + body->q_offset, at).parameter;
+    parameter[i] = spore_path_seek(knots, world->state.q + body->q_offset, NULL, at).parameter;
     spore_vec3_store(rest + 3 * i, at);
   }
   g_assert_true(spore_world_map(world, 0, rest, count, &seen, NULL));

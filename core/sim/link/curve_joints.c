@@ -51,7 +51,7 @@ bool spore_link_make_curve(SporeWorld *world, SporeLink *link, const SporeLinkDe
   const SporeBody *body = &world->bodies[line_body(from)];
   const double *rest = world->state.rest_q + body->q_offset;
   SporeSplineKnots knots = body->model->type->line->path(body->model);
-  SporePathPlace place = spore_path_seek(knots, rest, from->point_a);
+  SporePathPlace place = spore_path_seek(knots, rest, NULL, from->point_a);
   double off = spore_vec3_distance(place.position, from->point_a);
   double most = OFF_LINE * spore_path_length(knots, rest, 0, spore_spline_end(knots));
   if (off > most) return refuse_far(&place, off, most, error);
@@ -123,7 +123,7 @@ static void follow_curve(SporeWorld *world, SporeLink *link, SporeSpringTerm *te
   SporeCurveJoint *joint = &link->curve;
   const double *q = world->state.q + world->bodies[term->b.body].q_offset;
   SporeVec3 at = end_position(world, &term->a);
-  if (link->lost) joint->start = spore_path_seek(joint->knots, q, at).parameter;
+  if (link->lost) joint->start = spore_path_seek(joint->knots, q, NULL, at).parameter;
   SporePathPlace place = spore_curve_joint_place(joint, q, at);
   joint->start = place.parameter;
   spore_curve_joint_set(term, &place);
