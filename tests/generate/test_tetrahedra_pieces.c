@@ -396,8 +396,8 @@ static void test_apart(void) {
   spore_triangle_mesh_clear(&lone);
 }
 
-/* Plates that cross the organ: few cells cannot have them. The number of cells is met, and plates are merged and told
- * with their thickness and the number of cells that would do. */
+/* Plates that cross the organ, and a speck beside it: few cells cannot have them. The number of cells is met, plates
+ * are merged, the speck is left out, and each is told with its thickness and the number of cells that would do. */
 static void test_apart_thin(void) {
   SporeTriangleMesh plates = {0}, plate = {0};
   for (int i = 0; i < 3; i++) {
@@ -406,6 +406,10 @@ static void test_apart_thin(void) {
     shape_append(&plates, &plate);
     spore_triangle_mesh_clear(&plate);
   }
+  shape_ball(&plate, 0.0008, 2);
+  shape_move(&plate, 0, 0, 0.06);
+  shape_append(&plates, &plate);
+  spore_triangle_mesh_clear(&plate);
   uint32_t *parts;
   static const char *const names[] = {"organ", "vessel"};
   SporeTriangleMesh organ = organ_with(&plates, &parts);
@@ -421,13 +425,15 @@ static void test_apart_thin(void) {
     const SporeTetrahedraPiece *piece = result.report.piece + i;
     all += piece->cells;
     merged += piece->merged >= 0;
-    g_assert_true((piece->cells > 0) == (piece->merged < 0));
-    g_assert_cmpfloat(piece->thickness, >, 0.002);
+    g_assert_true(i == 4 ? piece->cells == 0 && piece->merged < 0 : (piece->cells > 0) == (piece->merged < 0));
+    g_assert_cmpfloat(piece->thickness, >, i == 4 ? 0.0005 : 0.002);
   }
   g_assert_cmpuint(all, ==, result.mesh.tetrahedron_count);
   g_assert_cmpuint(merged, >=, 1);
   g_assert_cmpint(result.report.piece[0].merged, ==, -1); /* the organ is the largest */
   g_assert_nonnull(strstr(remarks, "mm thick, too thin for cells of its own: merged with "));
+  g_assert_nonnull(
+      strstr(remarks, "mm thick, too thin for cells of its own, and nothing is around it: left out; about "));
   g_assert_nonnull(strstr(remarks, "300 cells were asked for: pieces too thin for so few were merged with others: "));
   g_free(remarks);
   spore_tetrahedral_mesh_clear(&result.mesh);

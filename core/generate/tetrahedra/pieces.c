@@ -308,8 +308,8 @@ static char *merged_text(const SporeTetrahedraReport *report, const SporeTetrahe
 }
 
 double spore_tetrahedra_cells_for(const SporeTetrahedraReport *report, const SporeTetrahedraPiece *piece) {
-  const double cells =
-      report->volume_given / (SPORE_TETRAHEDRA_CELL * pow(piece->thickness / SPORE_TETRAHEDRA_THIN, 3));
+  const double edges = piece->merged < 0 ? SPORE_TETRAHEDRA_SEEN : SPORE_TETRAHEDRA_THIN;
+  const double cells = report->volume_given / (SPORE_TETRAHEDRA_CELL * pow(piece->thickness / edges, 3));
   const double step = pow(10, floor(log10(cells)) - 1);
   return step * ceil(cells / step);
 }
@@ -331,8 +331,11 @@ static char *no_cells_text(const SporeTetrahedraReport *report, const SporeTetra
   if (piece->merged < 0 && enough < (double)cells)
     return g_strdup(_("no cells of its own: its place is that of smaller pieces, or a hollow"));
   if (piece->merged < 0)
-    return g_strdup_printf(_("about %.2g mm thick, too thin for cells of its own: left to what is around it; %s"),
-                           thickness, remedy);
+    return g_strdup_printf(
+        piece->inside_share > 0
+            ? _("about %.2g mm thick, too thin for cells of its own: left to what is around it; %s")
+            : _("about %.2g mm thick, too thin for cells of its own, and nothing is around it: left out; %s"),
+        thickness, remedy);
   g_autofree char *to = spore_tetrahedra_piece_called(report, piece->merged);
   return g_strdup_printf(_("about %.2g mm thick, too thin for cells of its own: merged with %s, which it touches; %s"),
                          thickness, to, remedy);

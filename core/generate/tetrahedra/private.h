@@ -14,6 +14,7 @@
 #define SPORE_TETRAHEDRA_CLOSING 0.3 /* a winding number nearer than this to one half lies in a hole of the surface */
 #define SPORE_TETRAHEDRA_CELL 0.12   /* volume of a cell whose edges have length 1 */
 #define SPORE_TETRAHEDRA_THIN 0.8    /* edges: pieces as thin as that are merged where there are too many cells */
+#define SPORE_TETRAHEDRA_SEEN 0.3    /* edges: thinner pieces may have no cell in the first lattice */
 #define SPORE_TETRAHEDRA_COUNT 0.1   /* tolerance of the number of cells, as a logarithm */
 
 /* Parts of the solid thinner than the cells of a lattice: points that bound such walls and slits. */
