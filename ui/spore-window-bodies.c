@@ -118,6 +118,7 @@ static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer dat
 /* Hiding. */
 
 static void shown_changed(SporeWindow *self) {
+  spore_outliner_set_hidden(SPORE_OUTLINER(self->outliner), spore_viewport_get_hidden(SPORE_VIEWPORT(self->viewport)));
   spore_window_update_actions(self);
   spore_window_show_hint(self);
 }
@@ -129,6 +130,14 @@ static void act_hide(GSimpleAction *action, GVariant *parameter, gpointer data) 
   gboolean alone = g_str_equal(g_action_get_name(G_ACTION(action)), "isolate");
   if (!bodies->len) return;
   (alone ? spore_viewport_isolate : spore_viewport_hide)(SPORE_VIEWPORT(self->viewport), bodies);
+  shown_changed(self);
+}
+
+static void act_hide_or_show(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_document_by_path(document_of(self), g_variant_get_string(parameter, NULL));
+  if (!body || !g_str_equal(spore_object_type(body)->element, "body")) return;
+  spore_viewport_hide_or_show(SPORE_VIEWPORT(self->viewport), body);
   shown_changed(self);
 }
 
@@ -159,6 +168,7 @@ void spore_window_add_body_actions(SporeWindow *self) {
       {"add-pin", act_add_pin},
       {"hide", act_hide},
       {"isolate", act_hide},
+      {"hide-or-show", act_hide_or_show, "s"},
       {"show-all", act_show_all},
       {"delete", act_delete},
   };

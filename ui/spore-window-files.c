@@ -160,6 +160,7 @@ static gboolean save_to(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
   if (!spore_editor_document_save(self->document, file, &error)) return !spore_window_failed(self, error);
   spore_recovery_keep(self->recovery, self->document, NULL);
+  spore_window_remember(spore_editor_document_get_save_file(self->document));
   spore_window_log(self, _("Saved %s"), spore_editor_document_get_save_file(self->document));
   return TRUE;
 }
@@ -194,6 +195,18 @@ gboolean spore_window_may_leave(SporeWindow *self) {
 
 /* Opening. */
 
+void spore_window_offer_recovery(SporeWindow *self) {
+  self->leftover = spore_leftover_find();
+  if (!self->leftover) return;
+  g_autofree char *name =
+      self->leftover->original ? g_path_get_basename(self->leftover->original) : g_strdup(_("Untitled"));
+  g_autoptr(GDateTime) when = g_date_time_new_from_unix_local(self->leftover->kept_s);
+  g_autofree char *date = g_date_time_format(when, "%x %H:%M");
+  g_autofree char *text = g_strdup_printf(_("SPORE ended unexpectedly. Unsaved work on %s was kept (%s)."), name, date);
+  gtk_label_set_text(GTK_LABEL(self->recovery_text), text);
+  gtk_widget_show(self->recovery_bar);
+}
+
 static void opened(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   SporeOpenWork *work = data;
@@ -207,8 +220,10 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
     g_autofree char *folder = g_path_get_dirname(work->file);
     spore_editor_document_set_recovered(self->document, work->original);
     spore_recovery_adopt(self->recovery, folder);
+    spore_window_offer_recovery(self); /* what else was left */
   }
   if (work->untitled) spore_editor_document_set_untitled(self->document);
+  else if (!work->recovered) spore_window_remember(work->file);
   self->fresh = FALSE;
   spore_window_update_actions(self);
   g_signal_emit_by_name(self->document, "history-changed");
@@ -321,6 +336,18 @@ static void act_save_recording_dialog(GSimpleAction *action, GVariant *parameter
   if (file) save_recording(data, file);
 }
 
+/* From time 0, in place of the scene's own input, till the run goes back to the start. */
+static void act_repeat_recording(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  spore_player_repeat(self->player, g_variant_get_string(parameter, NULL));
+}
+
+static void act_repeat_recording_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autofree char *file = spore_window_choose_to_open(self, _("Repeat recorded input"), "*.track", _("Recorded input"));
+  if (file) spore_player_repeat(self->player, file);
+}
+
 /* Numbers and plots. */
 
 static void save_numbers(SporeWindow *self, const char *file) {
@@ -431,6 +458,8 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"save-recording", act_save_recording, "s"},
       {"keep-recording", act_keep_recording},
       {"save-recording-dialog", act_save_recording_dialog},
+      {"repeat-recording", act_repeat_recording, "s"},
+      {"repeat-recording-dialog", act_repeat_recording_dialog},
       {"save-numbers", act_save_numbers, "s"},
       {"save-numbers-dialog", act_save_numbers_dialog},
       {"save-plot", act_save_plot, "s"},

@@ -151,6 +151,8 @@ static const struct {
     {"save-recording", SESSION},
     {"keep-recording", SESSION},
     {"save-recording-dialog", SESSION},
+    {"repeat-recording", BODIES},
+    {"repeat-recording-dialog", BODIES},
     {"save-picture", BODIES},
     {"save-picture-dialog", BODIES},
     {"export", IDLE | BODIES},

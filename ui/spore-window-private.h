@@ -79,7 +79,7 @@ struct _SporeWindow {
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
-  GMenu *templates, *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
+  GMenu *templates, *recent, *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
       *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
@@ -193,6 +193,11 @@ char *spore_window_choose_to_save(SporeWindow *self, const char *title, const ch
                                   const char *proposed);
 /* Asks for a file to read. title, kind: translated; patterns: with blanks between. g_free; NULL: the user went back. */
 char *spore_window_choose_to_open(SporeWindow *self, const char *title, const char *patterns, const char *kind);
+
+/* spore-window-recent.c: scenes that were opened or saved last. */
+void spore_window_remember(const char *file);
+/* Keeps the menu of them as they are. */
+void spore_window_follow_recent(SporeWindow *self);
 
 /* spore-window-templates.c: scenes to begin with. */
 void spore_window_add_template_actions(SporeWindow *self);

@@ -216,7 +216,7 @@ static const char *hint_for(SporeWindow *self) {
   if (g_str_equal(g_variant_get_string(tool, NULL), "probe") && leading_hint(self)) return leading_hint(self);
   if (gizmo_hint(self)) return gizmo_hint(self);
   if (spore_player_is_repeating(self->player))
-    return _("An attempt is repeated; F5 pauses and goes on, Shift+F5 ends it and goes back to the start");
+    return _("Recorded input is repeated; F5 pauses and goes on, Shift+F5 ends it and goes back to the start");
   if (spore_player_is_playing(self->player))
     return _("Choose Lead: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
   if (!spore_player_get_session(self->player))

@@ -19,16 +19,7 @@ static void recovery_answered(GtkInfoBar *bar, int response, SporeWindow *self) 
   if (response == GTK_RESPONSE_ACCEPT) spore_window_recover(self);
   else if (self->leftover) spore_leftover_remove(self->leftover);
   g_clear_pointer(&self->leftover, spore_leftover_free);
-}
-
-void spore_window_offer_recovery(SporeWindow *self) {
-  self->leftover = spore_leftover_find();
-  if (!self->leftover) return;
-  g_autofree char *name =
-      self->leftover->original ? g_path_get_basename(self->leftover->original) : g_strdup(_("Untitled"));
-  g_autofree char *text = g_strdup_printf(_("SPORE ended unexpectedly. Unsaved work on %s was kept."), name);
-  gtk_label_set_text(GTK_LABEL(self->recovery_text), text);
-  gtk_widget_show(self->recovery_bar);
+  if (response != GTK_RESPONSE_ACCEPT) spore_window_offer_recovery(self); /* else once that one is open */
 }
 
 /* Bodies that fall. */
@@ -203,6 +194,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, menu);
   gtk_widget_class_bind_template_child(widget, SporeWindow, speeds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, templates);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, recent);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, instrument_kinds);
   gtk_widget_class_bind_template_child(widget, SporeWindow, fluid_kinds);
@@ -255,6 +247,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_placement_actions(self);
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
+  spore_window_follow_recent(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));
   self->autosave = g_timeout_add_seconds(AUTOSAVE_S, autosave, self);

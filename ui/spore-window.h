@@ -6,7 +6,8 @@
  *   files       new, new-from [s template: organ, thread, fluid, net, instrument or effect], open [s path],
  *               open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
  *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
- *               save-recording-dialog, keep-recording (in the scene), save-picture [s path], save-picture-dialog,
+ *               save-recording-dialog, keep-recording (in the scene), repeat-recording [s path],
+ *               repeat-recording-dialog, save-picture [s path], save-picture-dialog,
  *               save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close
@@ -41,7 +42,8 @@
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-reach, show-figures (state), frame, view [s "front", "right" or "top"],
  *               show-outliner, show-inspector, show-problems, present (state), show-guide (state: the steps of the
- *               exercise while present is on), filter, measure [s "distance", "angle" or "volume"],
+ *               exercise while present is on), filter, hide, isolate (the selected bodies),
+ *               hide-or-show [s path of a body], show-all, measure [s "distance", "angle" or "volume"],
  *               swap-views (to the scene's camera and back), second-view (state: the other one, too),
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
@@ -69,7 +71,7 @@ void spore_window_open(SporeWindow *self, const char *file);
 const char *spore_window_get_renderer(SporeWindow *self);
 /* TRUE: nothing was made or opened in this window. */
 gboolean spore_window_is_fresh(SporeWindow *self);
-/* Offers what a dead owner left, if any. */
+/* Offers what a dead owner left, if any, one after the other, the newest first. */
 void spore_window_offer_recovery(SporeWindow *self);
 
 G_END_DECLS

@@ -100,7 +100,7 @@ def empty_window_says_what_to_do():
 
 @check
 def templates_to_begin_with():
-    """the empty view offers whole scenes to begin with: one plays, has no file until it is saved, and is not changed by that."""
+    """the empty view offers whole scenes to begin with: one plays, has no file until it is saved, and is not changed by that; scenes of before are offered, too."""
     with start() as editor:
         editor.find("toggle button", "^Templates$")
         picture = editor.find("push button", "^Thread: ")
@@ -117,6 +117,13 @@ def templates_to_begin_with():
     with start(folder("saved") / "template" / "scene.spore") as editor:
         ui.wait(lambda: editor.enabled("play"), "the same scene from its file")
         assert not editor.message(), "all that it needs is found from there"
+        editor.act("new")
+        ui.wait(lambda: not editor.enabled("play"), "the empty scene")
+        recent = editor.find("toggle button", "^Recent$")
+        keep_picture(editor, "recent")
+        editor.press(recent)
+        editor.press(editor.find(".*menu item|.*button", "template/scene.spore$"))
+        ui.wait(lambda: editor.enabled("play"), "the scene of before")
 
 
 @check
@@ -1329,7 +1336,7 @@ def probe_pushes():
 
 @check
 def mouse_takes_an_instrument_from_its_track():
-    """the mouse takes the clamp of plate 8 from its track, turns and closes it; the recording tells so, and is kept in the scene, where it leads the clamp."""
+    """the mouse takes the clamp of plate 8 from its track, turns and closes it; the recording tells so, is repeated from its file, and is kept in the scene, where it leads the clamp."""
     recording = folder("taken") / "taken.track"
     with start(SCENES / "plate8-clamp.spore") as editor:
         ui.wait(lambda: editor.row("shaft"), "the scene")
@@ -1350,6 +1357,21 @@ def mouse_takes_an_instrument_from_its_track():
         editor.act("pause")
         editor.act("save-recording", "s", str(recording))
         ui.wait(recording.exists, "the recording")
+        editor.act("tool", "s", "select")
+        editor.act("reset")
+        ui.wait(lambda: not editor.time_s(), "the start")
+        editor.act("repeat-recording", "s", str(folder("taken") / "none.track"))
+        ui.wait(lambda: "none.track" in (editor.message() or ""), "a word on the file that is not there")
+        assert not editor.look("label", "^Recorded input is repeated")
+        editor.act("repeat-recording", "s", str(recording))
+        editor.find("label", "^Recorded input is repeated")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.02, "time to advance again")
+        editor.act("pause")
+        again = folder("taken") / "again.track"
+        editor.act("save-recording", "s", str(again))
+        ui.wait(again.exists, "the recording of the repetition")
+        first = recording.read_text().splitlines()
+        assert first[:4] == again.read_text().splitlines()[:4], "the same input"
         editor.act("keep-recording")
         ui.wait(lambda: editor.row("recording-2"), "the track in the scene")
         clamp = xml.etree.ElementTree.fromstring(saved(editor, "kept")).find("tools/clamp")
@@ -1500,8 +1522,8 @@ def panels_fit_a_small_window():
     """in a window of 900 x 600 nothing of the beginning is cut off, and the generator's panel scrolls up and down alone, in French too."""
     for language in ("en", "fr"):
         with start(LANGUAGE=language) as editor:
-            ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(editor.process.pid)], capture_output=True,
-                                 text=True).stdout.split()
+            ids = ui.wait(lambda: subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(editor.process.pid)],
+                                                 capture_output=True, text=True).stdout.split(), "the window to be shown")
             editor.mouse("windowsize", ids[-1], 900, 600)
             ui.wait(lambda: editor.place(editor.find(".*", "^(Viewport|Vue)$"))[2] < 400, "the window to be small")
             for name in ("^(Import mesh|Importer un maillage)…$", "^(Open demo|Ouvrir la démo)$"):
@@ -1737,10 +1759,16 @@ def crash_and_recover(end):
         editor.act("generate-spheres", "u", 10)  # a job keeps the work before it begins
         ui.wait(lambda: any("ball_pin" in scene.read_text() for scene in pathlib.Path(state).rglob("*.spore")), "the work to be kept")
         end(editor)
+    left = next(pathlib.Path(state).rglob("scene.spore"))
+    shutil.copytree(left.parent, left.parent.with_name("older"))
+    os.utime(left.parent.with_name("older") / left.name, (1e9, 1e9))
     with start(state=state) as editor:
-        editor.find("label", "ended unexpectedly")
+        editor.find("label", "ended unexpectedly.* was kept \\(" + time.strftime("%m/%d/%y"))
         editor.press(editor.find("push button", "^Recover$"))
         ui.wait(lambda: editor.row("ball_pin"), "the scene that was not saved")
+        editor.find("label", "ended unexpectedly.* was kept \\(09/0[89]/01")  # each is offered, and says when
+        editor.press(editor.find("push button", "^Discard$"))
+        ui.wait(lambda: not editor.look("label", "ended unexpectedly"), "no more to be offered")
         assert editor.enabled("save")
         text = saved(editor, "recovered")
         assert (folder("saved") / "recovered" / "ball.off").exists() and 'name="ball"' in text
@@ -2189,6 +2217,16 @@ def a_drag_beside_turns_the_view():
         assert not selects(at), "what is hidden is not picked"
         editor.act("show-all")
         ui.wait(lambda: not editor.look("label", "is hidden"), "the word to go")
+        assert selects(at)
+        tree = editor.place(editor.find("tree table", "^Outliner$"))
+        row = editor.place(editor.row("right"))
+        eye = tree[0] + tree[2] - 14, row[1] + row[3] // 2
+        click(eye)
+        editor.find("label", "^1 body is hidden, A shows all")
+        keep_picture(editor, "eye")
+        assert not selects(at), "its eye hides a body"
+        click(eye)
+        ui.wait(lambda: not editor.look("label", "is hidden"), "the body to be shown again")
         assert selects(at)
         editor.act("isolate")
         assert editor.enabled("show-all") and selects(at)
@@ -3034,14 +3072,14 @@ def film_attempts(editor, exercise, others):
     ui.wait(lambda: button.get_state_set().contains(editor.atspi.StateType.SENSITIVE), "Repeat to be possible")
     editor.act("speed", "s", "0.1")
     editor.act("repeat-attempt", "x", ended()[0])
-    editor.find("label", "^An attempt is repeated")
+    editor.find("label", "^Recorded input is repeated")
     ui.wait(lambda: shown(editor, "^Under way: "), "the repeated exercise to begin")
     editor.act("speed", "s", "0")
     said = ui.wait(lambda: shown(editor, "^Done: "), "the repeated exercise to be done", 60)
     assert f"score {exercise['score']:.1f}, passed" in said, said
     editor.act("pause")
     editor.act("reset")
-    ui.wait(lambda: not editor.look("label", "^An attempt is repeated"), "the repetition to end")
+    ui.wait(lambda: not editor.look("label", "^Recorded input is repeated"), "the repetition to end")
     assert len(ended()) == 2
 
 

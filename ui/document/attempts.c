@@ -112,7 +112,7 @@ SporeTrack *spore_attempts_read_track(const char *file, GError **error) {
   gsize size;
   g_autoptr(GError) cause = NULL;
   if (!g_file_get_contents(file, &text, &size, &cause)) {
-    spore_error_raise(error, SPORE_ERROR_FILE, file, _("the input of the attempt cannot be read: %s"), cause->message);
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("the recorded input cannot be read: %s"), cause->message);
     return NULL;
   }
   SporeError fault = SPORE_ERROR_INIT;

@@ -134,10 +134,11 @@ gboolean spore_recovery_keep(SporeRecovery *recovery, SporeEditorDocument *edito
 
 /* Leftovers. */
 
-static SporeLeftover *leftover_in(const char *folder) {
+static SporeLeftover *leftover_in(const char *folder, gint64 kept_s) {
   SporeLeftover *leftover = g_new0(SporeLeftover, 1);
   g_autofree char *original = g_build_filename(folder, ORIGINAL, NULL);
   leftover->folder = g_strdup(folder);
+  leftover->kept_s = kept_s;
   leftover->scene = g_build_filename(folder, SCENE, NULL);
   if (g_file_get_contents(original, &leftover->original, NULL, NULL) && *leftover->original == '\0')
     g_clear_pointer(&leftover->original, g_free);
@@ -167,7 +168,7 @@ SporeLeftover *spore_leftover_find(void) {
     g_free(newest);
     newest = g_steal_pointer(&folder);
   }
-  return newest ? leftover_in(newest) : NULL;
+  return newest ? leftover_in(newest, newest_time) : NULL;
 }
 
 void spore_leftover_remove(const SporeLeftover *leftover) { remove_folder(leftover->folder); }

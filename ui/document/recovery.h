@@ -20,6 +20,7 @@ void spore_recovery_adopt(SporeRecovery *recovery, const char *folder);
 typedef struct SporeLeftover {
   char *folder, *scene;
   char *original; /* file it was made from, NULL: it was never saved */
+  gint64 kept_s;  /* when it was kept last, since 1970 */
 } SporeLeftover;
 SporeLeftover *spore_leftover_find(void); /* the newest; NULL: none */
 void spore_leftover_remove(const SporeLeftover *leftover);

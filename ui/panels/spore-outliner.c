@@ -8,7 +8,16 @@
 #include "core/sim/world.h"
 #include "ui/panels/report.h"
 
-enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT /* markup */, COLUMN_EDITABLE, COLUMN_WEIGHT, COLUMN_KIND };
+enum {
+  COLUMN_ID,
+  COLUMN_NAME,
+  COLUMN_BADGE,
+  COLUMN_HINT /* markup */,
+  COLUMN_EDITABLE,
+  COLUMN_WEIGHT,
+  COLUMN_KIND,
+  COLUMN_EYE /* icon; NULL: nothing that a view could hide */
+};
 
 struct _SporeOutliner {
   GtkBox parent;
@@ -16,13 +25,14 @@ struct _SporeOutliner {
   GtkTreeStore *store;
   GtkTreeModelFilter *filtered;
   GtkTreeSelection *selection;
-  GtkTreeViewColumn *column;
+  GtkTreeViewColumn *column, *eye;
   GtkCellRenderer *name;
   SporeEditorDocument *document;
   guint rebuild;
   gboolean filling;
   GHashTable *badges;   /* id -> SporeSeverity + 1 */
   GHashTable *problems; /* id -> char *: what the badge stands for */
+  GHashTable *hidden;   /* ids of bodies that are hidden in the view; the view's; NULL: not told yet */
 };
 
 G_DEFINE_FINAL_TYPE(SporeOutliner, spore_outliner, GTK_TYPE_BOX)
@@ -41,6 +51,12 @@ static const char *kind_of(const SporeObject *object) {
   return g_str_equal(type->element, "body") ? NULL : _(type->label);
 }
 
+static const char *eye_of(SporeOutliner *self, const SporeObject *object) {
+  if (!g_str_equal(spore_object_type(object)->element, "body")) return NULL;
+  gboolean hidden = self->hidden && g_hash_table_contains(self->hidden, GUINT_TO_POINTER(spore_object_id(object)));
+  return hidden ? "view-conceal-symbolic" : "view-reveal-symbolic";
+}
+
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
   guint32 id = spore_object_id(object);
   const char *problem = g_hash_table_lookup(self->problems, GUINT_TO_POINTER(id));
@@ -48,7 +64,8 @@ static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *obj
                                                   problem ? problem : "");
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
                                     COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
-                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), -1);
+                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), COLUMN_EYE,
+                                    eye_of(self, object), -1);
 }
 
 static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {
@@ -220,6 +237,42 @@ static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *sel
   return GDK_EVENT_STOP;
 }
 
+/* The eyes. */
+
+static gboolean update_eye(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  guint id;
+  gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
+  SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
+  if (object) gtk_tree_store_set(self->store, iter, COLUMN_EYE, eye_of(self, object), -1);
+  return FALSE;
+}
+
+void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden) {
+  g_hash_table_ref(hidden);
+  g_clear_pointer(&self->hidden, g_hash_table_unref);
+  self->hidden = hidden;
+  if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_eye, self);
+}
+
+/* A click on an eye hides the body or shows it, and selects nothing. */
+static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutliner *self) {
+  g_autoptr(GtkTreePath) path = NULL;
+  GtkTreeViewColumn *column;
+  GtkTreeIter iter;
+  guint id = 0;
+  if (event->type != GDK_BUTTON_PRESS || event->button != GDK_BUTTON_PRIMARY ||
+      !gtk_tree_view_get_path_at_pos(GTK_TREE_VIEW(tree), (int)event->x, (int)event->y, &path, &column, NULL, NULL) ||
+      column != self->eye || !gtk_tree_model_get_iter(GTK_TREE_MODEL(self->filtered), &iter, path))
+    return GDK_EVENT_PROPAGATE;
+  gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), &iter, COLUMN_ID, &id, -1);
+  SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
+  if (!object || !eye_of(self, object)) return GDK_EVENT_PROPAGATE;
+  g_autofree char *of_body = spore_object_path(object);
+  spore_activate(tree, "hide-or-show", g_variant_new_string(of_body));
+  return GDK_EVENT_STOP;
+}
+
 /* Life. */
 
 static void release_document(SporeOutliner *self) {
@@ -264,6 +317,7 @@ static void spore_outliner_dispose(GObject *object) {
   release_document(self);
   g_clear_pointer(&self->badges, g_hash_table_unref);
   g_clear_pointer(&self->problems, g_hash_table_unref);
+  g_clear_pointer(&self->hidden, g_hash_table_unref);
   G_OBJECT_CLASS(spore_outliner_parent_class)->dispose(object);
 }
 
@@ -277,11 +331,13 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeOutliner, filtered);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, selection);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, column);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, eye);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, name);
   gtk_widget_class_bind_template_callback(widget, filter_changed);
   gtk_widget_class_bind_template_callback(widget, row_selected);
   gtk_widget_class_bind_template_callback(widget, name_edited);
   gtk_widget_class_bind_template_callback(widget, tree_key);
+  gtk_widget_class_bind_template_callback(widget, tree_pressed);
 }
 
 static void spore_outliner_init(SporeOutliner *self) {

@@ -14,6 +14,9 @@ G_DECLARE_FINAL_TYPE(SporeOutliner, spore_outliner, SPORE, OUTLINER, GtkBox)
 void spore_outliner_set_document(SporeOutliner *self, SporeEditorDocument *document);
 /* Array of SporeDiagnostic *; the worst of each object becomes its badge. */
 void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics);
+/* Ids (as pointers) of the bodies that the view hides. Keeps a reference; after each change it is to be called again.
+ */
+void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden);
 /* Begins to edit the name of the selected object. */
 void spore_outliner_rename(SporeOutliner *self);
 void spore_outliner_focus_filter(SporeOutliner *self);

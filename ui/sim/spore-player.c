@@ -16,7 +16,7 @@ struct _SporePlayer {
   gboolean given_up;   /* `session` makes no more steps */
   gboolean plays;      /* what is done with the next session */
   guint steps;         /* likewise, where it does not play */
-  char *repeated;      /* file with the input of the attempt that is repeated; NULL: none is */
+  char *repeated;      /* file with the input that is repeated; NULL: none is */
   gboolean from_start; /* the next session starts at time 0 and copies no state */
   guint remake;        /* idle source: makes a session anew */
   guint take;          /* timeout source, while `next` waits */

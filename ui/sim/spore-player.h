@@ -37,14 +37,14 @@ void spore_player_prepare(SporePlayer *self);
 void spore_player_play(SporePlayer *self);
 void spore_player_pause(SporePlayer *self);
 void spore_player_step(SporePlayer *self);
-void spore_player_reset(SporePlayer *self); /* ends the repetition of an attempt, too */
+void spore_player_reset(SporePlayer *self); /* ends a repetition, too */
 /* See spore_session_knows_past, _try_go_to, _try_replay, _is_going and _stay; fraction may be NULL. */
 gboolean spore_player_knows_past(SporePlayer *self);
 void spore_player_go_to(SporePlayer *self, guint64 step);
 void spore_player_replay(SporePlayer *self);
 gboolean spore_player_is_going(SporePlayer *self, double *fraction);
 void spore_player_stay(SporePlayer *self);
-/* Plays an attempt from time 0: its input is in that file. */
+/* Plays an attempt or what was recorded from time 0: the input is in that file. `failed` where it cannot be read. */
 void spore_player_repeat(SporePlayer *self, const char *file);
 gboolean spore_player_is_repeating(SporePlayer *self);
 gboolean spore_player_is_playing(SporePlayer *self);          /* or will, once the simulation is there */

@@ -19,6 +19,14 @@ guint spore_viewport_hidden_count(SporeViewport *self) {
   return count;
 }
 
+GHashTable *spore_viewport_get_hidden(SporeViewport *self) { return self->hidden; }
+
+void spore_viewport_hide_or_show(SporeViewport *self, const SporeObject *body) {
+  gpointer id = GUINT_TO_POINTER(spore_object_id(body));
+  if (!g_hash_table_remove(self->hidden, id)) g_hash_table_add(self->hidden, id);
+  hidden_changed(self);
+}
+
 void spore_viewport_hide(SporeViewport *self, const GPtrArray *bodies) {
   for (guint i = 0; i < bodies->len; i++)
     g_hash_table_add(self->hidden, GUINT_TO_POINTER(spore_object_id(bodies->pdata[i])));

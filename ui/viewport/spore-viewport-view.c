@@ -68,6 +68,12 @@ void spore_viewport_set_templates(SporeViewport *self, GMenuModel *templates, Gt
   self->pictures = pictures;
 }
 
+void spore_viewport_set_recent(SporeViewport *self, GMenuModel *recent) {
+  if (!gtk_menu_button_get_menu_model(GTK_MENU_BUTTON(self->recent_button)))
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(self->recent_button), recent);
+  gtk_widget_set_visible(self->recent_button, g_menu_model_get_n_items(recent) > 0);
+}
+
 void spore_viewport_fit_welcome(SporeViewport *self, int top) {
   int width = gtk_widget_get_allocated_width(self->area), height = gtk_widget_get_allocated_height(self->area);
   spore_box_fit(GTK_BOX(self->beginnings), width - WELCOME_PADDING);

@@ -352,6 +352,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
   gtk_widget_class_bind_template_child(widget, SporeViewport, foot);
   gtk_widget_class_bind_template_child(widget, SporeViewport, template_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, recent_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
   gtk_widget_class_bind_template_child(widget, SporeViewport, tool_row);

@@ -82,6 +82,9 @@ guint spore_viewport_key_of(const char *action);
 /* Scenes to begin with, for the button of the empty view, and their pictures, which are shown where there is room.
  * Takes pictures. */
 void spore_viewport_set_templates(SporeViewport *self, GMenuModel *templates, GtkWidget *pictures);
+/* Scenes of before, for the button of the empty view, which is there while there are any. To be called after each
+ * change. */
+void spore_viewport_set_recent(SporeViewport *self, GMenuModel *recent);
 /* The kinds of links, for the view's button and menu. */
 void spore_viewport_set_link_menu(SporeViewport *self, GMenuModel *kinds);
 /* The kinds of fluids, for the view's menu. */
@@ -105,6 +108,8 @@ void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks);
 void spore_viewport_hide(SporeViewport *self, const GPtrArray *bodies);
 void spore_viewport_isolate(SporeViewport *self, const GPtrArray *bodies);
 void spore_viewport_show_all(SporeViewport *self);
+void spore_viewport_hide_or_show(SporeViewport *self, const SporeObject *body);
+GHashTable *spore_viewport_get_hidden(SporeViewport *self); /* set of ids as pointers; the view's own */
 guint spore_viewport_hidden_count(SporeViewport *self);
 /* The next clicks on bodies measure; Escape goes back. What is measured follows the bodies, is listed in the view, and
  * can be removed there. Another document has none. */
