@@ -13,7 +13,7 @@ import time
 APPLICATION, WINDOW = "org.spore.Editor", "/org/spore/Editor/window/1"
 PATIENCE_S = 30
 ROLES = 128  # that a query can name
-WRONG = ("CRITICAL", "WARNING", "from markup")  # that GTK never has reason to say
+WRONG = ("CRITICAL", "from markup")  # that GTK never has reason to say
 
 
 def private_environment(folder):
