@@ -668,13 +668,21 @@ def region_placed_in_the_view():
         assert saved(editor, "placed") == before
 
 
-def picture_of_view(editor, top=60):
-    """(pixels, bytes a pixel, bytes a row, width, height) of the view from so many pixels below its top, without its tools and figures."""
+def on_screen(x, y, width, height):
+    """A picture of the screen there, after the server has served the editor, too: it may answer us first, but not three times."""
     import gi
     gi.require_version("Gdk", "3.0")
     from gi.repository import Gdk
+    root = Gdk.get_default_root_window()
+    for _ in range(3):
+        Gdk.pixbuf_get_from_window(root, x, y, 1, 1)
+    return Gdk.pixbuf_get_from_window(root, x, y, width, height)
+
+
+def picture_of_view(editor, top=60):
+    """(pixels, bytes a pixel, bytes a row, width, height) of the view from so many pixels below its top, without its tools and figures."""
     x, y, width, height = editor.place(editor.drawn_view())
-    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y + top, width, height - 140 - top)
+    picture = on_screen(x, y + top, width, height - 140 - top)
     return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 140 - top
 
 
@@ -689,11 +697,8 @@ def beside(place):
 
 def picture_of(editor, widget):
     """Pixels of the screen where the widget is."""
-    import gi
-    gi.require_version("Gdk", "3.0")
-    from gi.repository import Gdk
     editor.drawn_view()
-    return Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), *editor.place(widget)).get_pixels()
+    return on_screen(*editor.place(widget)).get_pixels()
 
 
 def keep_picture(editor, name):
@@ -1561,17 +1566,18 @@ def plays_until(editor, pattern, enough, seconds=120):
 @check
 def scissors_cut():
     """scissors cut tissue: the ties that went are counted over the view, the picture opens, and Reset makes it whole."""
+    picture = lambda: picture_sum(editor, 120)  # below the buttons, which fade as they become possible
     with start(SCENES / "cut-ovary.spore") as editor:
         ui.wait(lambda: editor.row("ovary_right"), "the scene")
-        whole = picture_sum(editor)
+        whole = picture()
         cut = plays_until(editor, r"Cut (\d+)", 10)
         assert cut >= 10
         ui.wait(lambda: (editor.time_s() or 0) > 0, "time to have passed")
-        ui.wait(lambda: picture_sum(editor) != whole, "the picture to change")
+        ui.wait(lambda: picture() != whole, "the picture to change")
         assert not editor.look("table cell", "stopped|went back", showing=False)
         editor.act("reset")
         ui.wait(lambda: editor.time_s() == 0 and not editor.hud(r"Cut (\d+)"), "it to be whole")
-        ui.wait(lambda: picture_sum(editor) == whole, "the first picture")
+        ui.wait(lambda: picture() == whole, "the first picture")
 
 
 def picture_sum(editor, top=60):

@@ -71,8 +71,9 @@ static void queue_rebuild(SporeViewport *self) {
 
 static void measured_aside(gpointer data) { queue_rebuild(data); }
 
+/* Not before the view has its size, by which the scene is framed. */
 static void ensure_stage(SporeViewport *self) {
-  if (self->stage || !self->document || !self->renderer) return;
+  if (self->stage || !self->document || !self->renderer || gtk_widget_get_allocated_width(self->area) <= 1) return;
   self->stage = spore_stage_new(self->renderer, spore_editor_document_get(self->document));
   spore_stage_measure_aside(self->stage, measured_aside, self);
   g_clear_handle_id(&self->rebuild, g_source_remove);
