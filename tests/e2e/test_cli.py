@@ -1888,6 +1888,7 @@ def solids_of_tetrahedra():
 
 @check
 @alike
+@long_run
 def spheres_command():
     """spheres writes the asked number of spheres, the same each time, with its figures."""
     file("ball.off", shapes.off(*shapes.sphere()))
@@ -1898,14 +1899,21 @@ def spheres_command():
     assert len(rows) == 20 and all(len(row.split()) == 4 for row in rows)
     report("spheres", "ball.off", "--count", 20, "-o", "b.spheres")
     assert (WORK / "a.spheres").read_bytes() == (WORK / "b.spheres").read_bytes()
+    aimed = report("spheres", "ball.off", "--coverage", 0.9, "--depth-error", 0.2)
+    assert aimed["coverage"] >= 0.9 and aimed["depth_error"] <= 0.2 and aimed["hardest"] == "coverage", aimed
+    assert report("spheres", "ball.off", "--count", 5)["hardest"] is None
+
+
+@check
+@alike
+def spheres_command_says_what_it_cannot_do():
+    """spheres refuses what is out of range, unknown or too much, and takes regions."""
+    file("ball.off", shapes.off(*shapes.sphere()))
     refuses("spheres", "ball.off", says=["--count"])
     refuses("spheres", "ball.off", "--count", 0, says=["--count"])
     refuses("spheres", "ball.off", "--count", 5, "--coverage", 0.9, says=["--count", "--coverage"])
     refuses("spheres", "ball.off", "--coverage", 1.5, says=["--coverage", "1.5", "0 to 0.9999"])
     refuses("spheres", "ball.off", "--outside", 0.1, "--thickness", 0, says=["ball.off", "sheet", "tolerance"])
-    aimed = report("spheres", "ball.off", "--coverage", 0.9, "--depth-error", 0.2)
-    assert aimed["coverage"] >= 0.9 and aimed["depth_error"] <= 0.2 and aimed["hardest"] == "coverage", aimed
-    assert report("spheres", "ball.off", "--count", 5)["hardest"] is None
     refuses("spheres", "ball.off", "--count", 5, "--unit", "parsec", says=["parsec", "mm"])
     refuses("spheres", "ball.off", "--count", 5, "-o", "no/such/x.spheres", says=["no/such"])
     refuses("spheres", "ball.off", "--count", 5, "--method", "balancd", says=["balancd", "balanced"])
