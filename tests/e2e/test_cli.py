@@ -2199,10 +2199,10 @@ def writers():
     """Every command that writes a file: its arguments, and the file."""
     file("ball.off", shapes.off(*shapes.sphere()))
     file("tube.off", shapes.off(*shapes.tube()))
-    commands = [("spheres ball.off --count 20 -o", "w.spheres"), ("tetrahedra ball.off --cells 100 --method voxels -o", "w.vtu"),
+    commands = [("spheres ball.off --count 5 -o", "w.spheres"), ("tetrahedra ball.off --cells 100 --method voxels -o", "w.vtu"),
                 ("surface ball.off --nodes 100 -o", "w.off"), (f"spline ball.off --corners {' '.join(CORNERS)} -o", "w.off"),
                 (f"spline ball.off --corners {' '.join(CORNERS)} --scene", "w.spore"), ("centreline tube.off -o", "w.curve"),
-                ("spheres ball.off --counts 4,8 --csv", "w.csv"), ("import ball.off --unit m -o", "w.spore"),
+                ("spheres ball.off --counts 2,4 --csv", "w.csv"), ("import ball.off --unit m -o", "w.spore"),
                 (f"edit {organ()} --probe -o", "w.spore"), ("centreline tube.off --scene", "w.spore"),
                 (f"run {grasper()} --steps 20 --record", "w.track"), (f"run {soft_ball()} --steps 5 --output", "w.csv")]
     return commands + ([(f"render {soft_ball()} --size 64x64 -o", "w.png")] if "render" in FEATURES else [])
