@@ -86,6 +86,8 @@ static void report_diagnostics(SporeCli *cli, SporeDocument *document, const Spo
   }
   for (guint i = 0; i < import->bodies->len; i++) {
     const SporeImportBody *body = g_ptr_array_index(import->bodies, i);
+    g_autofree char *doubt = spore_import_doubt(body);
+    report_remark(cli, body->name, doubt);
     report_remark(cli, body->name, body->untextured);
   }
   spore_cli_diagnostics(cli, document);

@@ -1,6 +1,7 @@
 /* What the name of an organ says: the colour that it is drawn in, and its tissue. */
 #include "core/author/anatomy.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,8 +19,11 @@
 typedef struct Word {
   const char *word, *material;
   double colour[3];
+  double adult_g;           /* of one such organ of the reference adult man or woman; 0: none is told */
+  double least_ml, most_ml; /* outside of it the unit is more likely wrong than the organ ill, or a newborn's */
 } Word;
 
+/* Masses: ICRP Publication 89 (2002), reference values. Volumes: half a newborn's there, and what diseases lead to. */
 static const Word words[] = {
     {"tumor", NULL, {0.86, 0.80, 0.55}},
     {"tumour", NULL, {0.86, 0.80, 0.55}},
@@ -33,11 +37,11 @@ static const Word words[] = {
     {"vessel", NULL, {0.62, 0.20, 0.26}},
     {"bile_duct", "bile_duct", {0.42, 0.55, 0.22}},
     {"gallbladder", "gallbladder", {0.36, 0.52, 0.24}},
-    {"liver", "liver", {0.52, 0.20, 0.14}},
-    {"spleen", "spleen", {0.48, 0.16, 0.24}},
-    {"kidney", "kidney", {0.58, 0.22, 0.17}},
-    {"adrenal", NULL, {0.85, 0.63, 0.32}},
-    {"pancreas", "pancreas", {0.87, 0.69, 0.47}},
+    {"liver", "liver", {0.52, 0.20, 0.14}, 1800, 60, 3600},
+    {"spleen", "spleen", {0.48, 0.16, 0.24}, 150, 4, 2500},
+    {"kidney", "kidney", {0.58, 0.22, 0.17}, 155, 5, 1500},
+    {"adrenal", NULL, {0.85, 0.63, 0.32}, 7, 0.5, 500},
+    {"pancreas", "pancreas", {0.87, 0.69, 0.47}, 140, 2, 600},
     {"stomach", "stomach", {0.84, 0.53, 0.48}},
     {"duodenum", "small_intestine", {0.88, 0.60, 0.53}},
     {"small_bowel", "small_intestine", {0.88, 0.60, 0.53}},
@@ -46,19 +50,19 @@ static const Word words[] = {
     {"bowel", NULL, {0.80, 0.55, 0.45}},
     {"rectum", NULL, {0.80, 0.55, 0.45}},
     {"esophagus", NULL, {0.78, 0.50, 0.45}},
-    {"uterus", "uterus", {0.80, 0.42, 0.40}},
-    {"ovary", "ovary", {0.90, 0.76, 0.70}},
-    {"prostate", NULL, {0.78, 0.56, 0.48}},
+    {"uterus", "uterus", {0.80, 0.42, 0.40}, 80, 0.5, 4000},
+    {"ovary", "ovary", {0.90, 0.76, 0.70}, 5.5, 0.1, 1000},
+    {"prostate", NULL, {0.78, 0.56, 0.48}, 17, 0.3, 500},
     {"bladder", NULL, {0.86, 0.70, 0.52}},
     {"urinary_bladder", NULL, {0.86, 0.70, 0.52}},
     {"lung", NULL, {0.86, 0.62, 0.62}},
     {"trachea", NULL, {0.76, 0.83, 0.86}},
-    {"heart", NULL, {0.66, 0.20, 0.18}},
-    {"brain", NULL, {0.88, 0.76, 0.70}},
+    {"heart", NULL, {0.66, 0.20, 0.18}, 840, 20, 3000},
+    {"brain", NULL, {0.88, 0.76, 0.70}, 1450, 150, 2500},
     {"spinal", NULL, {0.90, 0.84, 0.62}},
     {"nerve", NULL, {0.93, 0.85, 0.42}},
     {"lymph", NULL, {0.47, 0.66, 0.36}},
-    {"thyroid", NULL, {0.68, 0.30, 0.27}},
+    {"thyroid", NULL, {0.68, 0.30, 0.27}, 20, 0.5, 600},
     {"fat", "fat", {0.93, 0.81, 0.47}},
     {"skin", NULL, {0.90, 0.72, 0.60}},
     {"muscle", "muscle", {0.60, 0.24, 0.20}},
@@ -115,6 +119,27 @@ gboolean spore_anatomy_knows(const char *name) { return word_of(name) != NULL; }
 const char *spore_anatomy_material(const char *name) {
   const Word *word = word_of(name);
   return word ? word->material : NULL;
+}
+
+/* Whether the name says that organ as a whole: not a segment, a valve or a stem of it. */
+static gboolean is_whole(const char *name, const Word *word) {
+  static const char *const others[] = {"", "left", "right", "l", "r", NULL};
+  g_autofree char *text = plain(name);
+  g_auto(GStrv) parts = g_strsplit(text, "_", -1);
+  for (char **part = parts; *part; part++)
+    if (!g_str_equal(*part, word->word) && !g_strv_contains(others, *part)) return FALSE;
+  return TRUE;
+}
+
+char *spore_anatomy_doubt(const char *name, double volume_m3) {
+  const Word *word = word_of(name);
+  double volume_ml = 1e6 * volume_m3;
+  if (!word || word->adult_g == 0 || !is_whole(name, word) ||
+      (volume_ml >= word->least_ml && volume_ml <= word->most_ml))
+    return NULL;
+  return g_strdup_printf(
+      _("its volume is %.3g ml, while that organ of a reference adult weighs %.3g g; check the unit"), volume_ml,
+      word->adult_g);
 }
 
 double spore_anatomy_cell_weight(const char *name) {

@@ -12,6 +12,10 @@ gboolean spore_anatomy_knows(const char *name);
 /* A material of the scene, by name; NULL: the name says none. */
 const char *spore_anatomy_material(const char *name);
 
+/* Why a volume can hardly be that of an organ of that name: "what; remedy", translated. NULL: it can, or the name says
+ * no organ whose size is known. g_free. */
+char *spore_anatomy_doubt(const char *name, double volume_m3);
+
 /* Cells for its volume that an organ of that name should have, relative to one whose name says no tissue: the root of
  * how much softer than 5 kPa its tissue is, from 1/2 to 2, as what is softer bends and gives way more. */
 double spore_anatomy_cell_weight(const char *name);

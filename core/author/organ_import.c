@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/author/anatomy.h"
 #include "core/author/edits.h"
 #include "core/base/memory.h"
 #include "core/generate/labels/labels.h"
@@ -405,4 +406,9 @@ char *spore_import_remark(const SporeImportFile *file) {
     return g_strdup(_("the volume's header says its unit and axes, and they were taken; leave them to the file"));
   if (!file->joined) return g_strdup(file->undescribed);
   return g_strdup_printf(_("its %u parts were joined into one body; split it to have a body of each"), file->parts);
+}
+
+char *spore_import_doubt(const SporeImportBody *body) {
+  const SporeMeshReport *report = &body->as_read.report;
+  return report->closed ? spore_anatomy_doubt(body->name, fabs(report->volume)) : NULL;
 }

@@ -68,6 +68,9 @@ typedef struct SporeImport {
   GPtrArray *left_out; /* of char *: why a file was left out */
 } SporeImport;
 
+/* spore_anatomy_doubt of a body whose mesh is closed. */
+char *spore_import_doubt(const SporeImportBody *body);
+
 #define SPORE_IMPORT_BODIES_MAXIMUM 500u
 
 /* Reads files. files: NULL-terminated paths of regular files, meshes or label maps. Each label of a map becomes a body

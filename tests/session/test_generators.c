@@ -320,6 +320,19 @@ static void test_anatomy(Fixture *fixture, gconstpointer data) {
   double colour[3], other[3];
   for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
     g_assert_cmpstr(spore_anatomy_material(names[i].name), ==, names[i].material);
+  static const struct {
+    const char *name;
+    double volume_ml;
+    gboolean doubted;
+  } sizes[] = {{"liver", 1500, FALSE},      {"Liver", 4500, TRUE},  {"liver", 1.5, TRUE},
+               {"liver_tumor", 1.5, FALSE}, {"spleen", 900, FALSE}, {"left kidney", 1600, TRUE},
+               {"left kidney", 150, FALSE}, {"thing", 1e6, FALSE},  {"liver_segment_1", 30, FALSE},
+               {"brainstem", 30, FALSE}};
+  for (guint i = 0; i < G_N_ELEMENTS(sizes); i++) {
+    g_autofree char *doubt = spore_anatomy_doubt(sizes[i].name, 1e-6 * sizes[i].volume_ml);
+    g_assert_true((doubt != NULL) == sizes[i].doubted);
+    if (doubt) g_assert_nonnull(strstr(doubt, "; check the unit"));
+  }
   spore_anatomy_colour("rib_left_4", 1, colour);
   spore_anatomy_colour("rib", 2, other);
   g_assert_cmpmem(colour, sizeof colour, other, sizeof other);

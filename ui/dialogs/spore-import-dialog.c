@@ -105,6 +105,8 @@ static void show_warnings(SporeImportDialog *self) {
   }
   for (guint i = 0; i < self->import->bodies->len; i++) {
     const SporeImportBody *body = g_ptr_array_index(self->import->bodies, i);
+    g_autofree char *size = spore_import_doubt(body);
+    if (size) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", body->name, size);
     if (body->untextured) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", body->name, body->untextured);
   }
   for (guint i = 0; i < self->import->left_out->len; i++)
