@@ -52,9 +52,11 @@ static void queue_refresh(SporeInspector *self);
 
 /* Rows. */
 
-/* A remark that an importer made of the object is shown where it stands, to be taken back; nobody makes it by hand. */
+/* What an importer said of the object is shown where it stands, to be taken back; nobody says it by hand. */
 static gboolean is_absent_remark(const SporeObject *object, const SporeParameter *parameter) {
-  return strcmp(parameter->name, "name_guessed") == 0 && !(object && spore_object_number(object, parameter->name) != 0);
+  if (strcmp(parameter->name, "name_guessed") == 0)
+    return !(object && spore_object_number(object, parameter->name) != 0);
+  return strcmp(parameter->name, "texture_places") == 0 && !(object && spore_object_text(object, parameter->name));
 }
 
 /* One row for each parameter of the table. object: NULL: it does not exist yet. */
