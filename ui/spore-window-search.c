@@ -23,6 +23,7 @@ static const struct {
     {"win.reset", N_("Back to the start")},
     {"win.step-back", N_("One step back")},
     {"win.replay", N_("Play the run again")},
+    {"win.stay", N_("Stop on the way to another time of the run")},
     {"win.bookmark", N_("Keep this time of the run")},
     {"win.tool::select", N_("Tool: select")},
     {"win.tool::probe", N_("Tool: lead an instrument")},

@@ -1569,7 +1569,12 @@ def scissors_cut():
     picture = lambda: picture_sum(editor, 120)  # below the buttons, which fade as they become possible
     with start(SCENES / "cut-ovary.spore") as editor:
         ui.wait(lambda: editor.row("ovary_right"), "the scene")
+        editor.act("step")
+        ui.wait(lambda: (editor.time_s() or 0) > 0, "one step")
+        editor.act("reset")
+        ui.wait(lambda: editor.time_s() == 0, "time 0")
         whole = picture()
+        keep_picture(editor, "whole")
         cut = plays_until(editor, r"Cut (\d+)", 10)
         assert cut >= 10
         ui.wait(lambda: (editor.time_s() or 0) > 0, "time to have passed")
@@ -1577,6 +1582,7 @@ def scissors_cut():
         assert not editor.look("table cell", "stopped|went back", showing=False)
         editor.act("reset")
         ui.wait(lambda: editor.time_s() == 0 and not editor.hud(r"Cut (\d+)"), "it to be whole")
+        keep_picture(editor, "whole again")
         ui.wait(lambda: picture() == whole, "the first picture")
 
 
