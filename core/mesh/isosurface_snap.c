@@ -138,6 +138,7 @@ static bool move_points(SporeIsosurfaceCells *cells, const Nearest *nearest, con
 
 bool spore_isosurface_snap(SporeIsosurfaceCells *cells, const SporeProgress *progress, SporeError *error) {
   const size_t count = cells->point_count;
+  if (count == 0) return true;
   Nearest nearest = {SPORE_NEW_ARRAY(double, count), SPORE_NEW_ARRAY(uint32_t, count)};
   Stars stars = {NULL, NULL};
   cells->home = SPORE_NEW_ARRAY(SporeIsosurfacePoint, count);
