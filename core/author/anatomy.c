@@ -137,9 +137,10 @@ char *spore_anatomy_doubt(const char *name, double volume_m3) {
   if (!word || word->adult_g == 0 || !is_whole(name, word) ||
       (volume_ml >= word->least_ml && volume_ml <= word->most_ml))
     return NULL;
-  return g_strdup_printf(
-      _("its volume is %.3g ml, while that organ of a reference adult weighs %.3g g; check the unit"), volume_ml,
-      word->adult_g);
+  g_autofree char *volume =
+      volume_ml < 1000 ? g_strdup_printf("%.3g ml", volume_ml) : g_strdup_printf("%.3g l", 1e-3 * volume_ml);
+  return g_strdup_printf(_("its volume is %s, while that organ of a reference adult weighs %.4g g; check the unit"),
+                         volume, word->adult_g);
 }
 
 double spore_anatomy_cell_weight(const char *name) {
