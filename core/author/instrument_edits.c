@@ -23,6 +23,8 @@
 #define THREAD_POINTS 25
 #define THREAD_RADIUS 0.0002 /* m */
 #define FIELD_OF_VIEW "0.9"
+#define DISTORTION                                                                                                     \
+  "0.2" /* measured of rigid endoscopes, Laryngoscope 125, 2015, p. 561: corners at 80 % of their distance */
 #define METAL "0.80 0.80 0.82"
 #define THREAD_COLOUR "0.25 0.30 0.62"
 
@@ -278,7 +280,8 @@ static gboolean add_camera(const Addition *addition, SporeObject *body, GError *
   return camera && set(addition, camera, "body", spore_object_name(body), error) &&
          spore_edit_set_vector(addition->document, camera, "position", addition->pose.position, error) &&
          spore_edit_set_vector(addition->document, camera, "target", ahead, error) &&
-         set_look(addition, camera, ahead, error) && set(addition, camera, "field_of_view", FIELD_OF_VIEW, error);
+         set_look(addition, camera, ahead, error) && set(addition, camera, "field_of_view", FIELD_OF_VIEW, error) &&
+         set(addition, camera, "distortion", DISTORTION, error);
 }
 
 static gboolean add_port(const Addition *addition, SporeObject *body, SporeVec3 entry, GError **error) {

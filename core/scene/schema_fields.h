@@ -84,7 +84,7 @@ typedef struct SporeSeamFields {
 
 typedef struct SporeCameraFields {
   const char *name, *body;
-  double position[3], target[3], angle, turn, field_of_view;
+  double position[3], target[3], angle, turn, field_of_view, distortion;
 } SporeCameraFields;
 
 typedef struct SporeProbeFields {

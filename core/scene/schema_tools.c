@@ -55,6 +55,17 @@ static const SporeParameter camera_parameters[] = {
      FIELD(SporeCameraFields, field_of_view),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Vertical field of view.")},
+    {.name = "distortion",
+     .type = SPORE_REAL,
+     .unit = "1",
+     .minimum = 0,
+     .maximum = 0.6,
+     FIELD(SporeCameraFields, distortion),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("How the lens bends straight lines outward (barrel): how much nearer to the middle it draws a corner of "
+            "the picture than at the scale of the middle, as a part of the distance. 0: not at all; rigid endoscopes: "
+            "0.2 (Laryngoscope 125, 2015, p. 561).")},
 };
 
 static const SporeParameter probe_parameters[] = {

@@ -181,6 +181,7 @@ static void test_defaults(void) {
   SporeCameraFields fields;
   spore_object_fields(camera, &fields);
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_camera_sight(&fields), corner), 0, ROUNDED);
+  g_assert_cmpfloat(fields.distortion, ==, 0.2);
   fixture_scene_free(&scene);
 }
 

@@ -28,12 +28,13 @@ static double hit_sphere(SporeVec3 origin, SporeVec3 direction, const double *sp
 
 /* Two spheres that run into each other, off the middle where perspective makes ellipses of them: each pixel must show
  * the one that its own ray meets first. Pixels next to a border of either kind are left out. */
-static void check_impostors(gboolean antialias) {
+static void check_impostors(gboolean antialias, double distortion) {
   static const double spheres[2][4] = {{0.030, 0.030, 0.010, 0.040}, {0.060, 0.010, 0.030, 0.030}};
   Bench bench = bench_open();
   spore_renderer_add_spheres(bench.renderer, spheres[0], 1, red, NULL, FALSE);
   spore_renderer_add_spheres(bench.renderer, spheres[1], 1, blue, NULL, FALSE);
-  SporeCamera camera = {.distance = 0.20, .azimuth = 0.2, .elevation = -0.1, .field_of_view = 1.0};
+  SporeCamera camera = {
+      .distance = 0.20, .azimuth = 0.2, .elevation = -0.1, .field_of_view = 1.0, .distortion = distortion};
   Picture picture = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, antialias, FALSE);
   int counts[3] = {0}, wrong = 0;
   for (int y = 1; y < PICTURE_HEIGHT - 1; y++)
@@ -62,9 +63,15 @@ static void check_impostors(gboolean antialias) {
   bench_close(&bench);
 }
 
-static void test_impostors_fast(void) { check_impostors(FALSE); }
+static void test_impostors_fast(void) { check_impostors(FALSE, 0); }
 
-static void test_impostors_full(void) { check_impostors(TRUE); }
+static void test_impostors_full(void) { check_impostors(TRUE, 0); }
+
+/* A lens bends lines, and rays through pixels bend with them. */
+static void test_impostors_through_lens(void) {
+  check_impostors(FALSE, 0.35);
+  check_impostors(TRUE, 0.35);
+}
 
 static void test_rows_from_the_top(void) {
   static const double above[4] = {-0.05, 0.05, 0, 0.02}, below[4] = {0.05, -0.05, 0, 0.02};
@@ -431,10 +438,41 @@ static void test_camera(void) {
   }
 }
 
+/* A lens leaves the corners, the middle and what the field of view ends at where they are; the measure says how much
+ * larger it draws the middle than a corner's distance tells; and a place is drawn where its ray goes through. */
+static void test_lens(void) {
+  const int width = 640, height = 360;
+  SporeCamera plain = {.distance = 0.2, .azimuth = 0.3, .elevation = 0.2, .field_of_view = 0.8}, bent = plain;
+  SporeVec3 eye, right, up, forward;
+  bent.distortion = 0.2;
+  spore_camera_eye(&bent, &eye, &right, &up, &forward);
+  SporeVec3 near = spore_vec3_add_scaled(bent.target, 1e-6, right);
+  const double places[][2] = {{320, 180}, {320, 0}, {0, 0}, {100, 300}, {639, 200}};
+  for (gsize i = 0; i < G_N_ELEMENTS(places); i++) {
+    double x, y;
+    SporeVec3 place = spore_camera_unproject(&bent, bent.target, places[i][0], places[i][1], width, height);
+    g_assert_true(spore_camera_project(&bent, place, width, height, &x, &y));
+    g_assert_cmpfloat_with_epsilon(x, places[i][0], 1e-9);
+    g_assert_cmpfloat_with_epsilon(y, places[i][1], 1e-9);
+    SporeVec3 straight = spore_camera_unproject(&plain, bent.target, places[i][0], places[i][1], width, height);
+    if (i < 2) g_assert_cmpfloat(spore_vec3_distance(place, straight), <, 1e-12);
+    else g_assert_cmpfloat(spore_vec3_distance(place, straight), >, 1e-3);
+  }
+  double x, y, corner_x, corner_y, a_metre;
+  g_assert_true(spore_camera_project(&bent, near, width, height, &x, &y));
+  a_metre = (x - 320) / 1e-6;
+  SporeVec3 corner = spore_camera_unproject(&bent, bent.target, 0, 0, width, height);
+  g_assert_true(spore_camera_project(&bent, corner, width, height, &corner_x, &corner_y));
+  double off = spore_vec3_distance(corner, bent.target) * a_metre;
+  g_assert_cmpfloat_with_epsilon(hypot(corner_x - 320, corner_y - 180) / off, 0.8, 1e-6);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/render/renderer/lens", test_lens);
   g_test_add_func("/render/renderer/impostors-fast", test_impostors_fast);
   g_test_add_func("/render/renderer/impostors-full", test_impostors_full);
+  g_test_add_func("/render/renderer/impostors-through-lens", test_impostors_through_lens);
   g_test_add_func("/render/renderer/clip", test_clip);
   g_test_add_func("/render/renderer/caps", test_caps);
   g_test_add_func("/render/renderer/tint", test_tint);

@@ -561,8 +561,8 @@ typedef struct Shaders {
 } Shaders;
 
 static void compare_shaders(const Shaders *expected) {
-  static const char *const all[] = {"surface.frag",   "sphere.frag", "puff.frag", "line.frag",     "background.frag",
-                                    "occlusion.frag", "smooth.frag", "glow.frag", "composite.frag"};
+  static const char *const all[] = {"surface.frag",   "sphere.frag", "puff.frag", "line.frag",      "background.frag",
+                                    "occlusion.frag", "smooth.frag", "glow.frag", "composite.frag", "lens.frag"};
   g_autofree char *file = g_strdup_printf(SPORE_SCENES "/%s.spore", expected->scene);
   Setting setting = setting_open(file);
   if (expected->bare) {
@@ -571,7 +571,8 @@ static void compare_shaders(const Shaders *expected) {
   }
   setting_run(&setting, expected->steps);
   g_autoptr(GArray) needs = spore_shader_needs(setting.document, setting.simulation);
-  SporeCamera camera = straight_camera(0.5);
+  SporeCamera camera;
+  g_assert_true(spore_stage_camera(setting.stage, NULL, 4.0 / 3, &camera, NULL));
   Picture picture = draw_picture(setting.bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, TRUE, FALSE);
   picture_clear(&picture);
   for (guint i = 0; i < G_N_ELEMENTS(all); i++)
@@ -584,11 +585,9 @@ static void compare_shaders(const Shaders *expected) {
 
 /* What a picture of a scene takes is what is said before the picture is drawn, no more and no less. */
 static void test_shaders(void) {
-  static const Shaders scenes[] = {{"minimal", NULL, 1, -1, -1},
-                                   {"minimal", "floor", 1, 1, -1},
-                                   {"table1-fluid", NULL, 1, -1, -1},
-                                   {"plate7-steam", NULL, 400, -1, 1},
-                                   {"plate6-intestine", NULL, 1, -1, -1}};
+  static const Shaders scenes[] = {{"minimal", NULL, 1, -1, -1},          {"minimal", "floor", 1, 1, -1},
+                                   {"table1-fluid", NULL, 1, -1, -1},     {"plate7-steam", NULL, 400, -1, 1},
+                                   {"exercise-suction", NULL, 1, -1, -1}, {"plate6-intestine", NULL, 1, -1, -1}};
   for (guint i = 0; i < G_N_ELEMENTS(scenes); i++) compare_shaders(&scenes[i]);
 }
 

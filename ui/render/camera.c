@@ -1,4 +1,9 @@
-/* The camera: how it looks, how gestures move it, and where points lie in its picture. */
+/* The camera: how it looks, how gestures move it, and where points lie in its picture.
+ *
+ * The lens follows the division model (Fitzgibbon 2001, Simultaneous linear estimation of multiple view geometry and
+ * lens distortion; used for endoscopes by Melo, Barreto and Falcao 2012): what is drawn at distance r from the middle,
+ * in half diagonals of the picture, comes from the distance r (1 - d) / (1 - d r^2) of a straight picture. Its inverse
+ * has a closed form. */
 #include "ui/render/camera.h"
 
 #include <math.h>
@@ -33,13 +38,36 @@ void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *righ
   *forward = spore_vec3_scale(-1, back);
 }
 
+/* Squared distance from the middle, in half diagonals, of a place whose coordinates are -1..1 in the picture. */
+static double off_middle(double x, double y, int width, int height) {
+  double w = (double)width * width, h = (double)height * height;
+  return (x * x * w + y * y * h) / (w + h);
+}
+
+/* How many times as far from the middle the straight picture has what the lens draws there. */
+static double straightened(const SporeCamera *camera, double off) {
+  return (1 - camera->distortion) / (1 - camera->distortion * off);
+}
+
+/* The inverse: how many times as far the lens draws what is `off` in the straight picture. */
+static double bent(const SporeCamera *camera, double off) {
+  double rest = 1 - camera->distortion;
+  return 2 / (rest + sqrt(rest * rest + 4 * camera->distortion * off));
+}
+
+double spore_camera_slope(const SporeCamera *camera, int width, int height) {
+  return tan(camera->field_of_view / 2) / straightened(camera, off_middle(0, 1, width, height));
+}
+
 void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, int height, SporeVec3 *origin,
                       SporeVec3 *direction) {
   SporeVec3 right, up, forward;
   spore_camera_eye(camera, origin, &right, &up, &forward);
-  double slope = tan(camera->field_of_view / 2), aspect = (double)width / height;
-  SporeVec3 through = spore_vec3_add_scaled(forward, (2 * x / width - 1) * slope * aspect, right);
-  through = spore_vec3_add_scaled(through, (1 - 2 * y / height) * slope, up);
+  double over = 2 * x / width - 1, above = 1 - 2 * y / height, aspect = (double)width / height;
+  double scale =
+      spore_camera_slope(camera, width, height) * straightened(camera, off_middle(over, above, width, height));
+  SporeVec3 through = spore_vec3_add_scaled(forward, over * scale * aspect, right);
+  through = spore_vec3_add_scaled(through, above * scale, up);
   *direction = spore_vec3_normalise(through, forward);
 }
 
@@ -80,8 +108,10 @@ gboolean spore_camera_project(const SporeCamera *camera, SporeVec3 point, int wi
   SporeVec3 d = spore_vec3_sub(point, eye);
   double depth = spore_vec3_dot(d, forward);
   if (depth <= 0) return FALSE;
-  double scale = height / (2 * depth * tan(camera->field_of_view / 2));
-  *x = width / 2.0 + spore_vec3_dot(d, right) * scale;
-  *y = height / 2.0 - spore_vec3_dot(d, up) * scale;
+  double half = depth * spore_camera_slope(camera, width, height);
+  double over = spore_vec3_dot(d, right) * height / (half * width), above = spore_vec3_dot(d, up) / half;
+  double scale = bent(camera, off_middle(over, above, width, height));
+  *x = width / 2.0 * (1 + over * scale);
+  *y = height / 2.0 * (1 - above * scale);
   return TRUE;
 }

@@ -12,11 +12,17 @@ typedef struct SporeCamera {
   double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
   double roll;               /* rad about the line of sight; the picture turns the other way, to the left */
   double field_of_view;      /* vertical, rad */
+  /* Of the lens, 0 to 0.6: how much nearer to the middle a corner of the picture is drawn than a lens
+   * of the middle's scale draws it, as a part of its distance (barrel). 0: straight lines stay straight. */
+  double distortion;
 } SporeCamera;
 /* Moves the camera so that the box fits into a picture of that aspect; keeps the direction. */
 void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);
 void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *right, SporeVec3 *up, SporeVec3 *forward);
-/* Ray (unit direction) through a pixel. */
+/* Half the height of the straight picture that a lens bends into one of that size, at distance 1: the lens takes its
+ * corners from the corners, and the middle of its upper edge from where the field of view ends. */
+double spore_camera_slope(const SporeCamera *camera, int width, int height);
+/* Ray (unit direction) through a pixel of the picture as the lens draws it. */
 void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, int height, SporeVec3 *origin,
                       SporeVec3 *direction);
 void spore_camera_orbit(SporeCamera *camera, double dx, double dy);

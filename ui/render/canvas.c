@@ -18,6 +18,19 @@ gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError
   return TRUE;
 }
 
+gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, GError **error) {
+  const SporeProgram *program = spore_programs_get(&canvas->programs, SPORE_PROGRAM_LENS, SPORE_VARIANT_FULL, error);
+  if (!program) return FALSE;
+  glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_COLOUR);
+  glBindTexture(GL_TEXTURE_2D, straight ? straight->colour : 0);
+  glUseProgram(program->id);
+  glBindVertexArray(canvas->screen_array);
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+  return TRUE;
+}
+
 /* This order writes each pixel least often: solids, the background behind them, what is
  * clear, smoke, then overlays. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,

@@ -96,7 +96,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const Spo
   SporeVec3 right, up, forward;
   *frame = (SporeFrame){0};
   spore_camera_eye(camera, &frame->eye, &right, &up, &forward);
-  double distance = camera->distance, slope = tan(camera->field_of_view / 2);
+  double distance = camera->distance, slope = spore_camera_slope(camera, width, height);
   depth_range(canvas->drawables, frame->eye, forward, &frame->near, &frame->far);
   if (options->grid || !(frame->far > 0)) {
     frame->near = MIN(frame->near, distance * 0.05);
@@ -113,6 +113,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const Spo
   block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
   block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
+  block->lens[0] = (float)camera->distortion;
   set_clip(frame, &options->clip, right, up, forward);
   set_cones(frame, canvas, right, up, forward);
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;

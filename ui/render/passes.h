@@ -27,6 +27,7 @@ typedef enum SporeProgramKind {
   SPORE_PROGRAM_SMOOTH,
   SPORE_PROGRAM_GLOW,
   SPORE_PROGRAM_COMPOSITE,
+  SPORE_PROGRAM_LENS,
   SPORE_PROGRAM_COUNT
 } SporeProgramKind;
 
@@ -59,7 +60,7 @@ enum {
 
 /* What all shaders know; laid out as the uniform block `Frame` (std140). */
 typedef struct SporeFrameBlock {
-  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4], tint[4];
+  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4], tint[4], lens[4];
   float pivot[SPORE_CONES_MOST][4], along[SPORE_CONES_MOST][4], limits[SPORE_CONES_MOST][4];
 } SporeFrameBlock;
 
@@ -218,6 +219,8 @@ typedef struct SporeCanvas {
 /* Gives the frame to the shaders. */
 void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame);
 gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError **error);
+/* Draws the straight picture, as the lens of the frame shows it, into the bound framebuffer. straight: NULL: black. */
+gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, GError **error);
 /* Draws everything that has a colour into the bound framebuffer, whose depth is cleared. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error);

@@ -24,6 +24,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_SMOOTH] = {"screen.vert", "smooth.frag"},
     [SPORE_PROGRAM_GLOW] = {"screen.vert", "glow.frag"},
     [SPORE_PROGRAM_COMPOSITE] = {"screen.vert", "composite.frag"},
+    [SPORE_PROGRAM_LENS] = {"screen.vert", "lens.frag"},
 };
 
 /* A narrow specular lobe of the film sparkles with one sample a pixel, so the fast variant widens the lobe. */

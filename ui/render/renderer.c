@@ -14,8 +14,9 @@
 struct SporeRenderer {
   SporeOffscreen *offscreen; /* borrowed */
   SporeCanvas canvas;
-  SporeTarget screen;  /* what is read back */
-  SporeTarget sampled; /* what is drawn into when the hardware takes several samples */
+  SporeTarget screen;   /* what is read back */
+  SporeTarget straight; /* what a lens bends into the screen's picture */
+  SporeTarget sampled;  /* what is drawn into when the hardware takes several samples */
   SporePicture picture;
   GLsync begun; /* passed when the picture that was begun is drawn; NULL: none was */
   int samples, largest;
@@ -60,6 +61,7 @@ void spore_renderer_free(SporeRenderer *renderer) {
     spore_texture_image_free(renderer->canvas.textures->pdata[i]);
   spore_programs_clear(&renderer->canvas.programs);
   spore_target_clear(&renderer->screen);
+  spore_target_clear(&renderer->straight);
   spore_target_clear(&renderer->sampled);
   spore_picture_clear(&renderer->picture);
   forget_begun(renderer);
@@ -252,9 +254,9 @@ gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error) {
 }
 
 static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
-                          GError **error) {
+                          const SporeTarget *screen, GError **error) {
   SporeFrame frame;
-  const SporeTarget *screen = &renderer->screen, *target = screen;
+  const SporeTarget *target = screen;
   int width = screen->width, height = screen->height;
   if (renderer->samples) {
     if (!spore_target_prepare(&renderer->sampled, width, height, renderer->samples, GL_SRGB8_ALPHA8,
@@ -275,6 +277,29 @@ static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, co
   return TRUE;
 }
 
+static gboolean draw_straight(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                              const SporeTarget *target, GError **error) {
+  if (!options->antialias) return draw_fast(renderer, camera, options, target, error);
+  return spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options, target, renderer->largest, error);
+}
+
+/* Draws the straight picture, in full quality so large that its middle is as sharp as without a lens; then bends it. */
+static gboolean draw_through_lens(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                                  GError **error) {
+  SporeFrame frame;
+  SporeTarget *straight = &renderer->straight;
+  int width = options->width, height = options->height, largest = MIN(renderer->largest, LARGEST_PICTURE);
+  double scale = options->antialias ? MIN(1 / (1 - camera->distortion), (double)largest / MAX(width, height)) : 1;
+  if (!spore_target_prepare(straight, (int)lround(scale * width), (int)lround(scale * height), 0, GL_SRGB8_ALPHA8,
+                            GL_DEPTH24_STENCIL8, error) ||
+      !draw_straight(renderer, camera, options, straight, error))
+    return FALSE;
+  spore_frame_prepare(&frame, camera, &renderer->canvas, options, width, height);
+  spore_canvas_set_frame(&renderer->canvas, &frame);
+  spore_target_bind(&renderer->screen);
+  return spore_lens_pass(&renderer->canvas, straight, error);
+}
+
 gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
                               GError **error) {
   int width = options->width, height = options->height, largest = MIN(renderer->largest, LARGEST_PICTURE);
@@ -290,9 +315,8 @@ gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera
   set_state();
   if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
     return FALSE;
-  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options,
-                                                           &renderer->screen, renderer->largest, error)
-                                      : draw_fast(renderer, camera, options, error);
+  gboolean drawn = camera->distortion > 0 ? draw_through_lens(renderer, camera, options, error)
+                                          : draw_straight(renderer, camera, options, &renderer->screen, error);
   if (drawn) renderer->begun = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   return drawn;
 }

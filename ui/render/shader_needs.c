@@ -25,6 +25,17 @@ static SporeProgramKind drawn_by(const SporeObject *body, const SporeModel *mode
   return names(body, "collision", "spheres") || own ? SPORE_PROGRAM_SPHERE : SPORE_PROGRAM_COUNT;
 }
 
+/* Whether a camera of the scene looks through a lens that bends lines. */
+static gboolean has_lens(SporeDocument *document) {
+  const SporeObject *tools = spore_document_section(document, "tools");
+  for (guint i = 0; i < spore_object_child_count(tools); i++) {
+    const SporeObject *tool = spore_object_child(tools, i);
+    if (g_str_equal(spore_object_type(tool)->element, "camera") && spore_object_number(tool, "distortion") > 0)
+      return TRUE;
+  }
+  return FALSE;
+}
+
 GArray *spore_shader_needs(SporeDocument *document, const SporeSimulation *simulation) {
   static const SporeProgramKind always[] = {SPORE_PROGRAM_BACKGROUND, SPORE_PROGRAM_OCCLUSION, SPORE_PROGRAM_SMOOTH,
                                             SPORE_PROGRAM_GLOW, SPORE_PROGRAM_COMPOSITE};
@@ -36,7 +47,7 @@ GArray *spore_shader_needs(SporeDocument *document, const SporeSimulation *simul
     counts[drawn_by(body, model_of(simulation, body))]++;
   }
   for (int kind = 0; kind < SPORE_PROGRAM_COUNT; kind++) {
-    gboolean needed = counts[kind] > 0;
+    gboolean needed = counts[kind] > 0 || (kind == SPORE_PROGRAM_LENS && has_lens(document));
     for (gsize i = 0; i < G_N_ELEMENTS(always); i++) needed |= always[i] == (SporeProgramKind)kind;
     const SporeShaderNeed need = {spore_program_name((SporeProgramKind)kind), counts[kind]};
     if (needed) g_array_append_val(needs, need);

@@ -57,7 +57,7 @@ static SporeVec3 moved_with(const SporeStage *stage, const SporeObject *body, Sp
 /* Cameras of scenes are placed for a picture of this aspect. A narrower picture shows as much to the sides. */
 #define SCENE_ASPECT (16.0 / 9)
 
-static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
+static SporeCamera look_from(SporeVec3 position, SporeVec3 target, const SporeCameraFields *fields) {
   SporeVec3 back = spore_vec3_sub(position, target);
   double distance = spore_vec3_length(back);
   if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
@@ -65,7 +65,8 @@ static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_
                        .distance = distance,
                        .azimuth = atan2(back.x, back.z),
                        .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
-                       .field_of_view = field_of_view};
+                       .field_of_view = fields->field_of_view,
+                       .distortion = fields->distortion};
 }
 
 /* The camera is level at the start, and turns with its body. */
@@ -75,12 +76,12 @@ static SporeCamera look_with(const SporeStage *stage, const SporeObject *object)
   spore_object_fields(object, &fields);
   SporeVec3 position = spore_vec3_load(fields.position), target = spore_camera_sight(&fields);
   const SporeObject *body = spore_object_reference(object, "body");
-  SporeCamera camera = look_from(position, target, fields.field_of_view);
+  SporeCamera camera = look_from(position, target, &fields);
   if (!body) return camera;
   spore_camera_eye(&camera, &eye, &right, &up, &forward);
   SporeVec3 now = moved_with(stage, body, target);
   SporeVec3 upward = spore_vec3_sub(moved_with(stage, body, spore_vec3_add(target, up)), now);
-  camera = look_from(moved_with(stage, body, position), now, fields.field_of_view);
+  camera = look_from(moved_with(stage, body, position), now, &fields);
   spore_camera_eye(&camera, &eye, &right, &up, &forward);
   camera.roll = atan2(spore_vec3_dot(upward, right), spore_vec3_dot(upward, up));
   return camera;

@@ -3,7 +3,7 @@
 #include "ui/render/frame.h"
 #include "ui/render/passes.h"
 
-typedef enum { BACKGROUND, GRID, LINES, SURFACES, SPHERES, OVERLAYS, PUFFS, STEP_COUNT } Step;
+typedef enum { BACKGROUND, GRID, LINES, SURFACES, SPHERES, OVERLAYS, PUFFS, LENS, STEP_COUNT } Step;
 
 static const double corners[9] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0}, sphere[4] = {0, 0, 0, 0.1};
 static const float colour[3] = {1, 1, 1};
@@ -46,6 +46,8 @@ static gboolean draw(SporeCanvas *canvas, Step step, const SporeFrame *frame, GP
     return spore_surface_pass(things, frame, programs, variant, FALSE, error);
   case PUFFS:
     return spore_puff_pass(things, frame, programs, variant, error);
+  case LENS:
+    return spore_lens_pass(canvas, NULL, error);
   default:
     return spore_sphere_pass(things, frame, programs, variant, step == OVERLAYS, error);
   }
