@@ -94,6 +94,8 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   self->document = spore_editor_document_new(document);
   self->player = spore_player_new(self->document);
   self->monitored_step = self->monitor_seen = 0;
+  self->missing = 0;
+  gtk_widget_hide(self->missing_bar);
   g_autoptr(GVariant) speed = g_action_group_get_action_state(G_ACTION_GROUP(self), "speed");
   spore_player_set_speed(self->player, g_ascii_strtod(g_variant_get_string(speed, NULL), NULL));
   g_signal_connect_object(self->document, "history-changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
@@ -131,6 +133,9 @@ static char *choose_file(SporeWindow *self, GtkFileChooserAction action, const c
   for (char **one = patterns; *one; one++) gtk_file_filter_add_pattern(filter, *one);
   gtk_file_chooser_add_filter(chooser, filter);
   gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  g_autofree char *folder = scene ? g_path_get_dirname(scene) : NULL;
+  if (folder) gtk_file_chooser_set_current_folder(chooser, folder);
   if (proposed) gtk_file_chooser_set_current_name(chooser, proposed);
   if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return NULL;
   return gtk_file_chooser_get_filename(chooser);

@@ -9,39 +9,40 @@
 #include "ui/spore-window-private.h"
 
 /* What an action may need, as bits. */
-typedef enum Need {
-  IDLE = 1 << 0,
-  JOBLESS = 1 << 1,
-  BODIES = 1 << 2,
-  SESSION = 1 << 3,
-  STILL = 1 << 4,
-  PLAYING = 1 << 5,
-  UNDO = 1 << 6,
-  REDO = 1 << 7,
-  UNSAVED = 1 << 8,
-  NAMED = 1 << 9,
-  ALONE = 1 << 10,
-  SOFT = 1 << 11,
-  BODY = 1 << 12,
-  HIDDEN = 1 << 13,
-  LINK = 1 << 14,
-  STEP = 1 << 15,
-  PART = 1 << 16,
-  STUDY = 1 << 17,
-  POINT = 1 << 18,
-  UNMEASURED = 1 << 19,
-  PLACES = 1 << 20,
-  RESULT = 1 << 21,
-  LISTING = 1 << 22,
-  WORK = 1 << 23,
-  HANDS = 1 << 24,
-  DRAFT = 1 << 25,
-  PICKING = 1 << 26,
-  MEASURES = 1 << 27,
-  CAMERA = 1 << 28,
-  EXERCISE = 1 << 29,
-  PORTS = 1 << 30,
-} Need;
+typedef guint64 Need;
+#define NEED(bit) ((Need)1 << (bit))
+#define IDLE NEED(0)
+#define JOBLESS NEED(1)
+#define BODIES NEED(2)
+#define SESSION NEED(3)
+#define STILL NEED(4)
+#define PLAYING NEED(5)
+#define UNDO NEED(6)
+#define REDO NEED(7)
+#define UNSAVED NEED(8)
+#define NAMED NEED(9)
+#define ALONE NEED(10)
+#define SOFT NEED(11)
+#define BODY NEED(12)
+#define HIDDEN NEED(13)
+#define LINK NEED(14)
+#define STEP NEED(15)
+#define PART NEED(16)
+#define STUDY NEED(17)
+#define POINT NEED(18)
+#define UNMEASURED NEED(19)
+#define PLACES NEED(20)
+#define RESULT NEED(21)
+#define LISTING NEED(22)
+#define WORK NEED(23)
+#define HANDS NEED(24)
+#define DRAFT NEED(25)
+#define PICKING NEED(26)
+#define MEASURES NEED(27)
+#define CAMERA NEED(28)
+#define EXERCISE NEED(29)
+#define PORTS NEED(30)
+#define MISSING NEED(31)
 
 /* In the order in which they are told. */
 static const struct {
@@ -76,13 +77,14 @@ static const struct {
     {HANDS, N_("the scene has no instrument yet; add one")},
     {CAMERA, N_("the scene has no camera yet; add an endoscope")},
     {PORTS, N_("no instrument passes through a port yet; add one with the place where it enters")},
+    {MISSING, N_("no file of the scene is missing")},
     {EXERCISE, N_("the scene has no exercise yet; add a step in the Exercise tab")},
 };
 
 /* Those that need something. */
 static const struct {
   const char *action;
-  guint needs;
+  Need needs;
 } needs[] = {
     {"undo", UNDO},
     {"redo", REDO},
@@ -123,6 +125,8 @@ static const struct {
     {"remove-part", PART},
     {"save-exercise", SESSION},
     {"save-exercise-dialog", SESSION},
+    {"locate", IDLE},
+    {"locate-dialog", IDLE | MISSING},
     {"import", IDLE},
     {"import-dialog", IDLE},
     {"import-dialog-with", IDLE},
@@ -186,7 +190,7 @@ gboolean spore_window_is_picking(SporeWindow *self) {
   return g_variant_get_boolean(state);
 }
 
-static guint of_history(SporeWindow *self) {
+static Need of_history(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   gboolean unsaved =
       spore_editor_document_is_modified(self->document) || !spore_editor_document_get_save_file(self->document);
@@ -194,7 +198,7 @@ static guint of_history(SporeWindow *self) {
          (unsaved ? UNSAVED : 0);
 }
 
-static guint of_selection(SporeWindow *self) {
+static Need of_selection(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   const SporeObject *selected = spore_editor_document_selected(self->document);
   g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
@@ -207,7 +211,7 @@ static guint of_selection(SporeWindow *self) {
          (step || spore_metric_is(selected) ? PART : 0);
 }
 
-static guint of_work(SporeWindow *self) {
+static Need of_work(SporeWindow *self) {
   gboolean places = spore_window_picks_places(self);
   const void *result = spore_generator_get_result(self->generator);
   gboolean works = self->job || spore_generator_is_active(self->generator) || spore_player_get_job(self->player);
@@ -216,12 +220,12 @@ static guint of_work(SporeWindow *self) {
          (result && spore_generator_get_options(self->generator)->listing ? LISTING : 0) | (works ? WORK : 0);
 }
 
-static guint of_run(SporeWindow *self) {
+static Need of_run(SporeWindow *self) {
   gboolean playing = spore_player_is_playing(self->player);
   return (spore_player_get_session(self->player) ? SESSION : 0) | (playing ? PLAYING : STILL);
 }
 
-static guint of_scene(SporeWindow *self) {
+static Need of_scene(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   g_autoptr(GPtrArray) hands = spore_hands(document);
   g_autoptr(GArray) ports = spore_ports_of(document, NULL);
@@ -230,7 +234,8 @@ static guint of_scene(SporeWindow *self) {
          (hands->len ? HANDS : 0) | (ports->len ? PORTS : 0) |
          (spore_object_child_of(spore_document_section(document, "tools"), "camera") ? CAMERA : 0) |
          (spore_object_child_count(spore_document_section(document, "exercise")) ? EXERCISE : 0) |
-         (measuring ? 0 : UNMEASURED) | (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
+         (measuring ? 0 : UNMEASURED) | (self->missing ? MISSING : 0) |
+         (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
          (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
          (spore_editor_document_get_study(self->document) ? STUDY : 0) |
          (spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)) ? POINT : 0) |
@@ -239,12 +244,12 @@ static guint of_scene(SporeWindow *self) {
                                           : 0);
 }
 
-static guint there(SporeWindow *self) {
+static Need there(SporeWindow *self) {
   return of_history(self) | of_selection(self) | of_work(self) | of_run(self) | of_scene(self);
 }
 
 /* What generators' actions need is the same for all of them, but for label maps, which need no body. */
-static guint needs_of(const char *action) {
+static Need needs_of(const char *action) {
   for (gsize i = 0; i < G_N_ELEMENTS(needs); i++)
     if (g_str_equal(needs[i].action, action)) return needs[i].needs;
   if (g_str_has_prefix(action, "generate-")) return IDLE | BODIES;
@@ -260,17 +265,17 @@ static void show_patient(SporeWindow *self) {
 
 void spore_window_update_actions(SporeWindow *self) {
   g_auto(GStrv) actions = g_action_group_list_actions(G_ACTION_GROUP(self));
-  guint now = there(self);
+  Need now = there(self);
   for (char **action = actions; *action; action++) {
     GAction *found = g_action_map_lookup_action(G_ACTION_MAP(self), *action);
-    guint all = needs_of(*action);
+    Need all = needs_of(*action);
     if (all) g_simple_action_set_enabled(G_SIMPLE_ACTION(found), (all & ~now) == 0);
   }
   show_patient(self);
 }
 
 const char *spore_window_missing(SporeWindow *self, const char *action) {
-  guint lacks = needs_of(action) & ~there(self);
+  Need lacks = needs_of(action) & ~there(self);
   for (gsize i = 0; i < G_N_ELEMENTS(missing); i++)
     if (missing[i].need & lacks) return _(missing[i].missing);
   return NULL;

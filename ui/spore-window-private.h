@@ -62,7 +62,7 @@ typedef enum SporeCause {
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *menu_button, *messages, *message_bar, *message,
-      *message_remedy, *recovery_bar, *recovery_text, *hold_bar, *hold_text, *hold_button;
+      *message_remedy, *recovery_bar, *recovery_text, *hold_bar, *hold_text, *hold_button, *missing_bar, *missing_text;
   SporeCause cause; /* of the message that is shown */
   GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *timeline, *exercise, *guide,
       *controls, *large_play, *large_play_image, *generator_panel, *middle, *bottom, *tabs, *log, *hint, *job_box,
@@ -89,6 +89,7 @@ struct _SporeWindow {
   gboolean framed_apart;  /* the view has moved to a candidate that belongs to no body */
   gboolean made_room;     /* the bottom was made taller for a study */
   GArray *loose;          /* of guint: ids of the bodies that fall unless they are held */
+  guint missing;          /* files of the scene that are not there, as last checked */
   GArray *gaps_logged_ms; /* of double: how long the window stood still, as the log has it */
   gboolean gaps_play;     /* gaps are told as those of playing */
   gboolean fresh, sure;   /* sure: the user has answered about unsaved changes */
@@ -135,6 +136,14 @@ void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 void spore_window_add_body_actions(SporeWindow *self);
 /* bodies: of SporeObject *. */
 void spore_window_select(SporeWindow *self, const GPtrArray *bodies);
+
+/* spore-window-locate.c: missing files. */
+void spore_window_add_locate_actions(SporeWindow *self);
+/* Offers to locate what the checks found missing; of SporeDiagnostic *. An offer that was closed comes back when
+ * another number of them is missing. */
+void spore_window_offer_to_locate(SporeWindow *self, const GPtrArray *diagnostics);
+/* Asks where a missing file is: one that the selection names, else the first. */
+void spore_window_ask_to_locate(SporeWindow *self);
 
 /* spore-window-picking.c: what is made by clicks in the view. */
 void spore_window_add_pick_actions(SporeWindow *self);

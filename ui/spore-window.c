@@ -66,6 +66,11 @@ static void hold_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
   if (!spore_edit_finish(document, hold_all(self, document, &error))) spore_window_failed(self, error);
 }
 
+static void missing_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
+  gtk_widget_hide(GTK_WIDGET(bar));
+  if (response == GTK_RESPONSE_ACCEPT) spore_window_ask_to_locate(self);
+}
+
 static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, SporeWindow *self) {
   guint count = 0;
   for (guint i = 0; i < diagnostics->len; i++)
@@ -74,6 +79,7 @@ static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, Sp
   gtk_container_child_set(GTK_CONTAINER(self->tabs), self->problems, "title", title, NULL);
   spore_outliner_set_problems(SPORE_OUTLINER(self->outliner), diagnostics);
   offer_to_hold(self, diagnostics);
+  spore_window_offer_to_locate(self, diagnostics);
 }
 
 /* What held the window for long, once for each thing that was going on, and again when that got much longer. */
@@ -167,6 +173,8 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, hold_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hold_text);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hold_button);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, missing_bar);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, missing_text);
   gtk_widget_class_bind_template_child(widget, SporeWindow, recovery_text);
   gtk_widget_class_bind_template_child(widget, SporeWindow, outliner);
   gtk_widget_class_bind_template_child(widget, SporeWindow, viewport);
@@ -221,6 +229,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   gtk_widget_class_bind_template_callback(widget, message_closed);
   gtk_widget_class_bind_template_callback(widget, recovery_answered);
   gtk_widget_class_bind_template_callback(widget, hold_answered);
+  gtk_widget_class_bind_template_callback(widget, missing_answered);
   gtk_widget_class_bind_template_callback(widget, problems_checked);
 }
 
@@ -238,6 +247,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_film_actions(self);
   spore_window_add_export_actions(self);
   spore_window_add_mesh_actions(self);
+  spore_window_add_locate_actions(self);
   spore_window_add_scene_actions(self);
   spore_window_add_body_actions(self);
   spore_window_add_pick_actions(self);

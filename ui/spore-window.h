@@ -10,7 +10,7 @@
  *               repeat-recording-dialog, save-picture [s path], save-picture-dialog,
  *               save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
- *               close
+ *               close, locate [s missing file, as the scene names it, s path], locate-dialog
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument

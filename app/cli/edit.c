@@ -9,6 +9,7 @@
 #include "core/author/fluid_edits.h"
 #include "core/author/instrument_edits.h"
 #include "core/author/level_edits.h"
+#include "core/author/locate.h"
 #include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/port_edits.h"
@@ -21,8 +22,8 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **delete, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port, **texture,
-      *patient, *output;
+  char **delete, **locate, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port,
+      **texture, *patient, *output;
   SporeCliPlacing placing;
   gboolean probe;
 } Request;
@@ -30,6 +31,7 @@ typedef struct Request {
 /* What was done, for the report. */
 typedef struct Done {
   GPtrArray *changed;  /* of char *: paths */
+  GPtrArray *located;  /* of SporeLocateWork * */
   SporeSoftWork *soft; /* NULL: nothing was made soft */
 } Done;
 
@@ -99,6 +101,48 @@ static gboolean delete_object(SporeDocument *document, const char *path, GPtrArr
   g_array_append_val(ids, id);
   note(changed, object);
   return spore_edit_delete(document, ids, error);
+}
+
+/* The end of the name of a missing file, which may itself have a =; NULL: none of them begins the text. */
+static const char *end_of_missing(SporeDocument *document, const char *text) {
+  g_autoptr(GPtrArray) missing = spore_missing_files(document);
+  for (guint i = 0; i < missing->len; i++) {
+    size_t length = strlen(missing->pdata[i]);
+    if (g_str_has_prefix(text, missing->pdata[i]) && text[length] == '=') return text + length;
+  }
+  return NULL;
+}
+
+/* MISSING=FILE */
+static gboolean locate(SporeCli *cli, SporeDocument *document, const char *text, Done *done, GError **error) {
+  const char *equals = end_of_missing(document, text);
+  if (!equals) equals = strchr(text, '=');
+  if (!equals || !equals[1])
+    return spore_error_raise(error, SPORE_ERROR_INPUT, text, "%s",
+                             _("this is no missing file and its place; expected MISSING=FILE, such as "
+                               "liver.off=/data/liver.off"));
+  g_autofree char *missing = g_strndup(text, (gsize)(equals - text));
+  SporeLocateWork *work = spore_locate_work_new(document, missing, equals + 1);
+  g_ptr_array_add(done->located, work);
+  return spore_locate_work_run(work, spore_cli_progress(cli), error) && spore_locate_work_apply(work, document, error);
+}
+
+static void report_located(SporeCli *cli, const GPtrArray *works) {
+  spore_cli_open_array(cli, "located");
+  for (guint i = 0; i < works->len; i++) {
+    const GPtrArray *found = spore_locate_work_found(works->pdata[i]);
+    for (guint k = 0; k < found->len; k++) {
+      const SporeLocatedFile *file = found->pdata[k];
+      if (file->refused) spore_cli_say(cli, _("not located: %s: %s\n"), file->missing, file->refused);
+      else spore_cli_say(cli, _("located: %s: %s\n"), file->missing, file->place);
+      spore_cli_open(cli, NULL);
+      spore_cli_text(cli, "missing", file->missing);
+      spore_cli_text(cli, "place", file->place);
+      spore_cli_text(cli, "refused", file->refused);
+      spore_cli_close(cli);
+    }
+  }
+  spore_cli_close_array(cli);
 }
 
 /* BODY=LEVEL */
@@ -275,6 +319,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   GPtrArray *changed = done->changed;
   for (char **path = request->delete; path && *path; path++)
     if (!delete_object(document, *path, changed, error)) return FALSE;
+  for (char **text = request->locate; text && *text; text++)
+    if (!locate(cli, document, *text, done, error)) return FALSE;
   for (char **path = request->add; path && *path; path++) {
     SporeObject *added = spore_edit_add(document, *path, error);
     if (!added) return FALSE;
@@ -328,12 +374,14 @@ static gboolean edit(SporeCli *cli, const char *file, const Request *request, GE
   if (!spore_file_may_be_written(output, TRUE, error)) return FALSE;
   SporeDocument *document = spore_scene_load(cli->schema, file, error);
   g_autoptr(GPtrArray) changed = g_ptr_array_new_with_free_func(g_free);
-  Done done = {.changed = changed};
+  g_autoptr(GPtrArray) located = g_ptr_array_new_with_free_func(spore_locate_work_free);
+  Done done = {.changed = changed, .located = located};
   gboolean saved =
       document && apply(cli, document, request, &done, error) && spore_cli_save_scene(document, output, error);
   if (saved) {
     spore_cli_text(cli, "scene", output);
     spore_cli_say(cli, _("%s: written\n"), output);
+    if (located->len) report_located(cli, located);
     if (done.soft) report_soft(cli, done.soft);
     report_changed(cli, changed);
     spore_cli_open_array(cli, "diagnostics");
@@ -348,6 +396,9 @@ static gboolean edit(SporeCli *cli, const char *file, const Request *request, GE
 int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"scene", N_("file that was written")},
+      {"located",
+       N_("missing files that were found: missing (as the scene named it), place, refused (null, or why it is "
+          "not taken)")},
       {"soft", N_("what was made soft: body, tetrahedra, spheres (0: it had its own), distance as a share of the "
                   "diagonal")},
       {"changed", N_("paths of what was added and set")},
@@ -362,6 +413,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "all "
           "that belongs to it (may be repeated)"),
        "PATH"},
+      {"locate", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &request.locate,
+       N_("Take a file that the scene misses from where it lies now, before anything is added, and other missing ones "
+          "that lie beside it: liver.off=/data/liver.off (may be repeated)"),
+       "MISSING=FILE"},
       {"add", 'a', 0, G_OPTION_ARG_STRING_ARRAY, &request.add,
        N_("Add an object, before anything is set: links/spring:cord, bodies/liver/mechanical/spline_1d (may be "
           "repeated)"),
@@ -436,18 +491,20 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  gboolean any = request.delete || request.add || request.soft || request.level || request.set || request.patient ||
-                 request.hold || request.instrument || request.fluid || request.mirror || request.copy ||
-                 request.port || request.texture || request.placing.move || request.placing.turn ||
+  gboolean any = request.delete || request.locate || request.add || request.soft || request.level || request.set ||
+                 request.patient || request.hold || request.instrument || request.fluid || request.mirror ||
+                 request.copy || request.port || request.texture || request.placing.move || request.placing.turn ||
                  request.placing.scale || request.placing.align || request.probe;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --delete, --add, --soft, --level, --set, --patient, --hold, "
+        _("spore edit: nothing is asked for; expected --delete, --locate, --add, --soft, --level, --set, --patient, "
+          "--hold, "
           "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align or --probe; "
           "give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);
+  g_strfreev(request.locate);
   g_strfreev(request.add);
   g_strfreev(request.soft);
   g_strfreev(request.level);

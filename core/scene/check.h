@@ -9,7 +9,8 @@ typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSever
 /* What can be done about a diagnostic without asking. */
 typedef enum SporeFix {
   SPORE_FIX_NONE,
-  SPORE_FIX_HOLD /* pin the body: spore_edit_add_pin */
+  SPORE_FIX_HOLD,  /* pin the body: spore_edit_add_pin */
+  SPORE_FIX_LOCATE /* ask where the missing file is: spore_locate_work_new */
 } SporeFix;
 typedef struct SporeDiagnostic {
   SporeSeverity severity;

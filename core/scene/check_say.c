@@ -51,6 +51,16 @@ static const SporeObject *object_at(const SporeObject *object, const char *messa
   return NULL;
 }
 
+/* Whether a property of the object names a file that is not there. */
+static gboolean misses_file(const SporeDocument *document, const SporeObject *object) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (guint i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_FILE && spore_object_is_set(object, i) &&
+        !spore_document_has_file(document, spore_object_value(object, i)->text))
+      return TRUE;
+  return FALSE;
+}
+
 void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error) {
   const SporeObject *said = object_at(spore_document_root(check->document), error->message);
   const char *message = error->message;
@@ -65,6 +75,8 @@ void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const Spor
       end      ? end + 1 + strspn(end + 1, " ")
       : memory ? _("close other programs, or use fewer or coarser meshes")
                : _("correct it"));
+  if (g_error_matches(error, SPORE_ERROR, SPORE_ERROR_FILE) && object && misses_file(check->document, object))
+    spore_check_offer(check, SPORE_FIX_LOCATE);
 }
 
 void spore_check_each(SporeCheck *check, const char *section, const char *element, SporeCheckVisit visit) {

@@ -121,6 +121,8 @@ void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *
 /* Content of a file that an asset names: the blob, or else the file in the folder (regular, inside the folder, at most
  * 1 GiB). */
 GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error);
+/* Whether that content is there to be read; it is not read. */
+gboolean spore_document_has_file(const SporeDocument *document, const char *file);
 
 /* Decoded assets, cached by content, shared and immutable. NULL with a GError whose place is the asset. `asset` is an
  * object of element mesh, spheres, tetrahedra or curve. Mesh vertices are in metres and in SPORE's axes. A result is

@@ -87,9 +87,11 @@ static gboolean say_why(int fault, const char *place, const char *file, GError *
                              _("there is not enough memory to read \"%s\"; close other programs or make it smaller"),
                              file);
   if (fault == ENOENT || fault == ENOTDIR)
-    return spore_error_raise(error, SPORE_ERROR_FILE, place,
-                             _("there is no file \"%s\" in the scene's folder; put it there or correct the name"),
-                             file);
+    return spore_error_raise(
+        error, SPORE_ERROR_FILE, place,
+        _("there is no file \"%s\" in the scene's folder; put it there, locate it (spore edit --locate) or "
+          "correct the name"),
+        file);
   return spore_error_raise(error, SPORE_ERROR_FILE, place, _("\"%s\" cannot be read: %s; check its permissions"), file,
                            g_strerror(fault));
 }
@@ -159,6 +161,13 @@ static GBytes *read_asset(const SporeDocument *document, const char *place, cons
 
 GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error) {
   return read_asset(document, NULL, file, error);
+}
+
+gboolean spore_document_has_file(const SporeDocument *document, const char *file) {
+  if (g_hash_table_contains(document->blobs, file)) return TRUE;
+  int descriptor = spore_document_open_asset(document, NULL, file, NULL);
+  if (descriptor >= 0) close(descriptor);
+  return descriptor >= 0;
 }
 
 /* Moving. */

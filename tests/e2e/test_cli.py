@@ -1739,6 +1739,25 @@ def an_instrument_is_refused_with_a_remedy():
 
 @check
 @alike
+def a_missing_file_is_located():
+    """Files that a scene misses are taken from where they lie now, all of a folder at once; what is not missing or is another file is refused, and nothing is written."""
+    file("moved/at/ball.off", shapes.off(*shapes.sphere()))
+    file("moved/at/picture.png", shapes.off(*shapes.sphere()))
+    scene = file("moved/scene.spore", '<spore version="1.0"><assets><mesh name="ball" file="gone/ball.off"/></assets><bodies><body name="ball" role="unmovable">'
+                 '<visual mesh="ball" texture="picture.png"/></body></bodies></spore>\n')
+    before = scene.read_text()
+    assert "--locate" in report("check", scene, status=1)["diagnostics"][0]["remedy"]
+    refuses("edit", scene, "--locate", "ball.off=moved/at/ball.off", says=["no such file is missing"])
+    refuses("edit", scene, "--locate", "gone/ball.off=moved/scene.spore", says=["moved/scene.spore: ", "no mesh"])
+    refuses("edit", scene, "--locate", "gone/ball.off", says=["expected MISSING=FILE"])
+    assert scene.read_text() == before
+    found = report("edit", scene, "--locate", "gone/ball.off=moved/at/ball.off")["located"]
+    assert [(one["missing"], bool(one["refused"])) for one in found] == [("gone/ball.off", False), ("picture.png", True)], found
+    assert not [one for one in report("check", scene)["diagnostics"] if "ball.off" in one["message"]]
+
+
+@check
+@alike
 def an_instrument_is_deleted_whole():
     """Each instrument of the library, added and deleted, leaves nothing behind but the mouse; an organ takes its pins along, another's stay; what is not there is refused."""
     bar = slim_bar()

@@ -1985,6 +1985,44 @@ def every_model_in_turn():
 
 
 @check
+def a_missing_file_is_located():
+    """a scene opens without its files and names them; the file chooser says where one is, and the others that lie beside it come along, as one step; another file is refused."""
+    path = write_scene("moved", "<rigid_body/>")
+    text = path.read_text()
+    away = folder("moved_away")
+    for name in re.findall(r'file="([^"]+)"', text):
+        shutil.copy(path.parent / name, away / pathlib.Path(name).name)
+        text = text.replace(f'"{name}"', f'"gone/{name}"')
+    lost = path.with_name("lost.spore")
+    lost.write_text(text)
+    with start(lost) as editor:
+        editor.find("label", "files? of the scene (is|are) not in its folder: gone/")
+        assert editor.row("ball"), "what is there is shown"
+        keep_picture(editor, "missing")
+        missing = re.findall(r'file="(gone/[^"]+)"', text)
+        editor.act("locate", "(ss)", (missing[0], str(lost)))
+        ui.wait(lambda: "lost.spore" in (editor.message() or ""), "the refusal")
+        assert not editor.enabled("undo")
+        editor.focus()
+        editor.atspi.Component.grab_focus(editor.find("push button", "^Locate…$"))
+        editor.keys("Return")  # a press from here would wait for the chooser of files to end
+        editor.find("file chooser", "^Where is “gone/")
+        editor.focus()
+        editor.mouse("type", str(away / pathlib.Path(missing[0]).name))
+        ui.wait(lambda: any(editor.text_of(node).endswith(missing[0][-8:]) for node in editor.nodes("text")), "the path")
+        editor.keys("Return")
+        ui.wait(lambda: editor.enabled("undo"), "the files")
+        ui.wait(lambda: not editor.look("label", "of the scene (is|are) not in its folder"), "the offer to go")
+        keep_picture(editor, "located")
+        assert "gone/" not in saved(editor, "located")
+        editor.act("play")
+        ui.wait(lambda: editor.time_s(), "the scene to play")
+        editor.act("reset")
+        editor.act("undo")
+        editor.find("label", "of the scene (is|are) not in its folder")
+
+
+@check
 def what_nothing_holds_is_offered_to_be_held():
     """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not."""
     path = write_scene("loose", "<rigid_body/>")
