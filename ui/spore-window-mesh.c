@@ -15,6 +15,17 @@
 
 /* Importing. */
 
+/* One that is heavy is selected, and can be made lighter at once. */
+static void offer_lightening(SporeWindow *self, const SporeImport *import) {
+  const SporeImportBody *body = import->bodies->len == 1 ? g_ptr_array_index(import->bodies, 0) : NULL;
+  g_autofree char *burden = body ? spore_import_burden(body) : NULL;
+  if (!burden) return;
+  g_autofree char *text = g_strdup_printf("%s: %s", body->name, burden), *label = spore_lighten_label();
+  g_autofree char *action = g_strdup_printf(
+      "win.change-mesh(('%s', %u.0))", spore_mesh_operations[SPORE_MESH_DECIMATE].name, SPORE_IMPORT_TRIANGLES_ENOUGH);
+  spore_window_complain_while(self, SPORE_CAUSE_EDIT, text, label, action);
+}
+
 static void take_import(SporeWindow *self, const SporeImport *import) {
   g_autoptr(GError) failure = NULL;
   g_autoptr(GPtrArray) bodies = spore_edit_import(spore_editor_document_get(self->document), import, &failure);
@@ -27,6 +38,7 @@ static void take_import(SporeWindow *self, const SporeImport *import) {
     const SporeImportBody *made = g_ptr_array_index(import->bodies, i);
     spore_window_log(self, _("Imported %s: %zu triangles"), made->name, made->mesh.triangle_count);
   }
+  offer_lightening(self, import);
 }
 
 static void imported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {

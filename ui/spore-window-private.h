@@ -106,7 +106,8 @@ const char *spore_window_missing(SporeWindow *self, const char *action);
 
 /* spore-window-state.c: messages, the job that runs, enabled actions. */
 void spore_window_complain(SporeWindow *self, const char *message);
-/* A message that goes with its cause. remedy: label of a button for the action of the window; both NULL: none. */
+/* A message that goes with its cause. remedy: label of a button for the action of the window,
+ * with its target where it has one; both NULL: none. */
 void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
                                  const char *action);
 /* Something else is being worked on. */

@@ -37,7 +37,7 @@ void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char
   gtk_label_set_text(GTK_LABEL(self->message), message);
   gtk_widget_set_visible(self->message_remedy, remedy != NULL);
   if (remedy) gtk_button_set_label(GTK_BUTTON(self->message_remedy), remedy);
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(self->message_remedy), action);
+  gtk_actionable_set_detailed_action_name(GTK_ACTIONABLE(self->message_remedy), action);
   gtk_widget_show(self->message_bar);
   spore_window_log(self, "%s", message);
 }

@@ -86,7 +86,12 @@ static void report_diagnostics(SporeCli *cli, SporeDocument *document, const Spo
   }
   for (guint i = 0; i < import->bodies->len; i++) {
     const SporeImportBody *body = g_ptr_array_index(import->bodies, i);
-    g_autofree char *doubt = spore_import_doubt(body);
+    g_autofree char *doubt = spore_import_doubt(body), *burden = spore_import_burden(body);
+    g_autofree char *option =
+        burden ? g_strdup_printf("%s (--%s %u)", burden, spore_mesh_operations[SPORE_MESH_DECIMATE].name,
+                                 SPORE_IMPORT_TRIANGLES_ENOUGH)
+               : NULL;
+    report_remark(cli, body->name, option);
     report_remark(cli, body->name, doubt);
     report_remark(cli, body->name, body->untextured);
   }

@@ -412,3 +412,11 @@ char *spore_import_doubt(const SporeImportBody *body) {
   const SporeMeshReport *report = &body->as_read.report;
   return report->closed ? spore_anatomy_doubt(body->name, fabs(report->volume)) : NULL;
 }
+
+char *spore_import_burden(const SporeImportBody *body) {
+  gsize count = body->mesh.triangle_count;
+  if (count <= SPORE_IMPORT_TRIANGLES_MANY) return NULL;
+  return g_strdup_printf(_("it has %zu triangles, and spheres and tetrahedra fit as well from %u on, in less time; "
+                           "decimate it to %u"),
+                         count, SPORE_IMPORT_TRIANGLES_ENOUGH, SPORE_IMPORT_TRIANGLES_ENOUGH);
+}

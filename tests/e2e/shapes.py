@@ -28,6 +28,20 @@ def sphere(radius=0.03, rings=12, sectors=24, centre=(0.0, 0.0, 0.0)):
     return vertices, triangles
 
 
+def heavy(across=360, size=0.1):
+    """A sheet of about 258,000 triangles, more than the import lets pass without a word: STL."""
+    steps = [size * i / across for i in range(across + 1)]
+    head, foot = struct.pack("<3f", 0, 0, 1), b"\0\0"
+    pack = struct.Struct("<9f").pack
+    body = bytearray()
+    for i in range(across):
+        x, x1 = steps[i], steps[i + 1]
+        for j in range(across):
+            y, y1 = steps[j], steps[j + 1]
+            body += head + pack(x, y, 0, x1, y, 0, x1, y1, 0) + foot + head + pack(x, y, 0, x1, y1, 0, x, y1, 0) + foot
+    return bytes(80) + struct.pack("<I", 2 * across * across) + bytes(body)
+
+
 def joined(*meshes):
     """Several meshes in one."""
     vertices, triangles = [], []

@@ -350,6 +350,11 @@ def import_of_several_meshes():
         assert [abs(volume(m) / volume(n) - 1) < 1e-9 for m, n in zip(split["meshes"], apart["meshes"])] == [True, True]
     assert report("check", "several/split.spore")["diagnostics"] == report("check", "several/apart.spore")["diagnostics"]
     assert report("import", "both.off", "-o", "several/whole.spore")["meshes"][0]["as_read"]["components"] == 2
+    file("heavy.stl", shapes.heavy())
+    said = [report("import", name, "-o", "several/heavy.spore")["diagnostics"] for name in ("heavy.stl", "one.off")]
+    said = [[d for d in found if "triangles, and spheres and tetrahedra" in d["message"]] for found in said]
+    assert len(said[0]) == 1 and "--triangles 100000" in said[0][0]["remedy"] and said[0][0]["place"] == "heavy", said
+    assert not said[1], said
     refuses("import", "one.off", "--merge", "--split", "-o", "several/no.spore", says=["--merge", "--split"])
     refuses("import", "one.off", "--split=halves", "-o", "several/no.spore", says=["halves", "pieces"])
 

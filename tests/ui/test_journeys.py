@@ -203,6 +203,31 @@ def import_of_several_meshes():
         assert not editor.enabled("undo")
 
 
+@check
+def a_heavy_mesh_is_offered_to_be_decimated():
+    """the import says of a mesh with far too many triangles that fewer do, and chooses them at a press; after it, too."""
+    path = folder("meshes") / "heavy.stl"
+    path.write_bytes(shapes.heavy())
+    with start() as editor:
+        import_ball(editor)
+        assert not editor.look("label", "triangles, and spheres and tetrahedra"), "a light mesh is not remarked"
+        editor.act("import-dialog-with", "as", [str(path)])
+        editor.find("label", "^heavy: it has 259200 triangles, and spheres and tetrahedra fit as well from 100000 on")
+        button = inside(editor, "Import mesh", "push button", "^Decimate to 100000$")
+        keep_picture(editor, "heavy-import")
+        editor.press(button)
+        spin = editor.find("spin button", "^triangles$")
+        ui.wait(lambda: spin.get_state_set().contains(editor.atspi.StateType.SENSITIVE) and editor.atspi.Value.get_current_value(spin) == 100000,
+                "decimating to be chosen, to that many")
+        editor.press(inside(editor, "Import mesh", "check box", "^Decimate$"))  # no longer: the file as it is
+        editor.find("label", "^heavy: it has 259200 triangles")
+        editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
+        ui.wait(lambda: editor.row("heavy") and editor.look("push button", "^Decimate to 100000$"), "the organ, and the word on it")
+        keep_picture(editor, "heavy")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("heavy") and not editor.look("push button", "^Decimate to"), "the organ and the word on it to go")
+
+
 def three_organs(name):
     """A folder of three organs side by side, of two tissues that their names say."""
     place = folder(name)

@@ -28,7 +28,7 @@ enum {
 
 struct _SporeImportDialog {
   GtkDialog parent;
-  GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *accept, *together;
+  GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *lighten, *accept, *together;
   GtkWidget *wanted[SPORE_MESH_OPERATIONS], *argument[SPORE_MESH_OPERATIONS]; /* argument: NULL where it takes none */
   GtkListStore *rows;
   GPtrArray *files; /* char *, NULL at the end */
@@ -94,25 +94,33 @@ static char *doubt_of(const SporeImport *import) {
   return NULL;
 }
 
+static void append_line(GString *text, const char *name, const char *said) {
+  if (said) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", name, said);
+}
+
 /* Warnings for the user: about the unit, then from the files. */
 static void show_warnings(SporeImportDialog *self) {
   g_autofree char *doubt = doubt_of(self->import);
   GString *text = g_string_new(doubt);
+  gboolean heavy = FALSE;
   for (guint i = 0; i < self->import->files->len; i++) {
     const SporeImportFile *file = g_ptr_array_index(self->import->files, i);
     g_autofree char *remark = spore_import_remark(file), *base = g_path_get_basename(file->file);
-    if (remark) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", base, remark);
+    append_line(text, base, remark);
   }
   for (guint i = 0; i < self->import->bodies->len; i++) {
     const SporeImportBody *body = g_ptr_array_index(self->import->bodies, i);
-    g_autofree char *size = spore_import_doubt(body);
-    if (size) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", body->name, size);
-    if (body->untextured) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", body->name, body->untextured);
+    g_autofree char *size = spore_import_doubt(body), *burden = spore_import_burden(body);
+    append_line(text, body->name, size);
+    append_line(text, body->name, burden);
+    append_line(text, body->name, body->untextured);
+    heavy = heavy || burden;
   }
   for (guint i = 0; i < self->import->left_out->len; i++)
     g_string_append_printf(text, _("%sLeft out: %s"), text->len ? "\n" : "", (char *)self->import->left_out->pdata[i]);
   gtk_label_set_text(GTK_LABEL(self->warning), text->str);
   gtk_widget_set_visible(self->warning, text->len > 0);
+  gtk_widget_set_visible(self->lighten, heavy);
   g_string_free(text, TRUE);
 }
 
@@ -154,6 +162,7 @@ static void drop_work(SporeImportDialog *self) {
   g_clear_pointer(&self->import, spore_import_free);
   gtk_widget_set_sensitive(self->accept, FALSE);
   gtk_widget_hide(self->together);
+  gtk_widget_hide(self->lighten);
   gtk_widget_hide(self->warning);
 }
 
@@ -205,6 +214,12 @@ static void read_soon(SporeImportDialog *self) {
 /* Choices. */
 
 static void choice_changed(GtkWidget *widget, SporeImportDialog *self) { read_soon(self); }
+
+/* Meshes of fewer triangles stay as they are. How far the surface moves is shown with the others. */
+static void lighten(GtkButton *button, SporeImportDialog *self) {
+  gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->argument[SPORE_MESH_DECIMATE]), SPORE_IMPORT_TRIANGLES_ENOUGH);
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(self->wanted[SPORE_MESH_DECIMATE]), TRUE);
+}
 
 /* Of a folder, all meshes in it. */
 static void add_file(SporeImportDialog *self, const char *file) {
@@ -270,6 +285,7 @@ static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, spinner);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, state);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, warning);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, lighten);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, accept);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, together);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, rows);
@@ -277,6 +293,7 @@ static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
   gtk_widget_class_bind_template_callback(widget, add_folder);
   gtk_widget_class_bind_template_callback(widget, clear_files);
   gtk_widget_class_bind_template_callback(widget, choice_changed);
+  gtk_widget_class_bind_template_callback(widget, lighten);
 }
 
 static void add_operation(SporeImportDialog *self, int kind) {
@@ -322,6 +339,9 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(self->unit), spore_length_units[i]);
   for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) add_operation(self, i);
   add_columns(self);
+  g_autofree char *lighten = spore_lighten_label();
+  gtk_button_set_label(GTK_BUTTON(self->lighten), lighten);
+  gtk_widget_set_tooltip_text(self->lighten, spore_lighten_doc());
   gtk_widget_show_all(self->operations);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), 0);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->frame), 0);

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "core/author/organ_import.h"
 #include "ui/panels/report.h"
 
 #define TEXT_CHARS 72
@@ -25,6 +26,13 @@ char *spore_figures_text(const SporeMeshFigures *figures) {
   return g_strdup_printf(_("%zu triangles, pieces: %zu, open edges: %zu, non-manifold edges: %zu, %.4g cm³"),
                          figures->triangles, figures->report.components, figures->report.boundary_edges,
                          figures->report.nonmanifold_edges, 1e6 * figures->report.volume);
+}
+
+char *spore_lighten_label(void) { return g_strdup_printf(_("Decimate to %u"), SPORE_IMPORT_TRIANGLES_ENOUGH); }
+
+const char *spore_lighten_doc(void) {
+  return _("Leave that many triangles, where the shape loses least. Spheres and tetrahedra fit as well; how far the "
+           "surface moves is measured and shown");
 }
 
 GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *operation, const char *name,

@@ -17,4 +17,8 @@ GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *op
 /* The chosen argument; 0 where the operation takes none. */
 double spore_mesh_dialog_get_argument(GtkWidget *dialog);
 
+/* Decimating an imported mesh that is too heavy: the label of the button (g_free), and what it says. */
+char *spore_lighten_label(void);
+const char *spore_lighten_doc(void);
+
 #endif
