@@ -1,9 +1,11 @@
 /* spore-editor: the editor's window on a scene. */
 #include <glib/gi18n.h>
+#include <locale.h>
 #include <stdlib.h>
 
 #include "app/catalogue.h"
 #include "app/ending.h"
+#include "ui/document/preferences.h"
 #include "ui/jobs/loop-gaps.h"
 #include "ui/spore-application.h"
 
@@ -29,9 +31,19 @@ static const char *scenes_folder(void) {
   return g_file_test(SPORE_SOURCE_SCENES, G_FILE_TEST_IS_DIR) ? SPORE_SOURCE_SCENES : SPORE_INSTALLED_SCENES;
 }
 
+/* gettext looks for LANGUAGE first, but for the locale that has no language at all. */
+static void choose_language(void) {
+  const char *language = spore_preference_get(spore_preference_find("language"));
+  if (g_str_equal(language, "system")) return;
+  g_setenv("LANGUAGE", language, TRUE);
+  setlocale(LC_ALL, "");
+  if (g_str_equal(setlocale(LC_MESSAGES, NULL), "C")) g_setenv("LC_ALL", "C.UTF-8", TRUE);
+}
+
 int main(int argc, char **argv) {
   spore_ending_prepare();
   gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
+  choose_language();
   spore_catalogue_start();
   spore_ending_translate();
   spore_ending_on_signals();

@@ -7,7 +7,9 @@
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
 #include "ui/jobs/under-way.h"
+#include "ui/dialogs/spore-preferences-dialog.h"
 #include "ui/spore-look.h"
+#include "ui/spore-preferences.h"
 #include "ui/spore-window.h"
 
 struct _SporeApplication {
@@ -43,6 +45,7 @@ static const struct {
     {"win.filter", {"<Control>f"}},
     {"win.search", {"<Control>k"}},
     {"win.open-menu", {"F10"}},
+    {"app.preferences", {"<Control>comma"}},
     {"win.turn-optic(10.0)", {"<Control>bracketright"}},
     {"win.turn-optic(-10.0)", {"<Control>bracketleft"}},
     {"win.close", {"<Control>w"}},
@@ -74,6 +77,12 @@ static void quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
   for (GList *item = windows; item; item = item->next) gtk_window_close(GTK_WINDOW(item->data));
 }
 
+static void preferences(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeApplication *self = data;
+  GtkWindow *window = gtk_application_get_active_window(GTK_APPLICATION(self));
+  gtk_window_present(GTK_WINDOW(spore_preferences_dialog_new(window, GTK_APPLICATION(self))));
+}
+
 static SporeWindow *open_window(SporeApplication *self) {
   return spore_window_new(GTK_APPLICATION(self), self->schema, self->scenes);
 }
@@ -83,10 +92,12 @@ static void new_window(GSimpleAction *action, GVariant *parameter, gpointer data
 }
 
 static void spore_application_startup(GApplication *application) {
-  static const GActionEntry actions[] = {{"about", about}, {"quit", quit}, {"new-window", new_window}};
+  static const GActionEntry actions[] = {
+      {"about", about}, {"quit", quit}, {"new-window", new_window}, {"preferences", preferences}};
   SporeApplication *self = SPORE_APPLICATION(application);
   G_APPLICATION_CLASS(spore_application_parent_class)->startup(application);
   self->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
+  spore_preferences_add(GTK_APPLICATION(self));
   self->look = spore_look_new(application);
   load_style();
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -5,8 +5,6 @@
  * settings stay as the system gave them. The room around the scene stays dark either way. */
 #include "ui/spore-look.h"
 
-#include "ui/document/preferences.h"
-
 #define PREFERENCE "look"
 #define PORTAL "org.freedesktop.portal.Desktop"
 #define PORTAL_PATH "/org/freedesktop/portal/desktop"
@@ -15,28 +13,19 @@
 #define SCHEME "color-scheme"
 #define PREFER_DARK "gtk-application-prefer-dark-theme"
 
-static const char *const looks[] = {"system", "light", "dark", NULL};
-
 typedef enum Scheme { SCHEME_NONE, SCHEME_DARK, SCHEME_LIGHT } Scheme;
 
 struct SporeLook {
   GApplication *application;
-  GSimpleAction *action;
   GCancellable *cancel; /* of what is asked of the portal */
   GDBusProxy *portal;   /* NULL: there is none, or none yet */
   Scheme scheme;        /* of the system */
 };
 
-static const char *chosen(const SporeLook *look) {
-  g_autoptr(GVariant) state = g_action_get_state(G_ACTION(look->action));
-  for (const char *const *name = looks; *name; name++)
-    if (g_str_equal(g_variant_get_string(state, NULL), *name)) return *name;
-  return looks[0];
-}
-
 static void apply(SporeLook *look) {
   GtkSettings *settings = gtk_settings_get_default();
-  const char *name = chosen(look);
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(look->application), PREFERENCE);
+  const char *name = g_variant_get_string(state, NULL);
   gboolean asked = !g_str_equal(name, "system");
   if (!asked && look->scheme == SCHEME_NONE) gtk_settings_reset_property(settings, PREFER_DARK);
   else g_object_set(settings, PREFER_DARK, asked ? g_str_equal(name, "dark") : look->scheme == SCHEME_DARK, NULL);
@@ -83,28 +72,11 @@ static void portal_found(GObject *source, GAsyncResult *result, gpointer data) {
                     look->cancel, scheme_read, look);
 }
 
-/* The choice. */
-
-static void chose(GSimpleAction *action, GVariant *name, gpointer data) {
-  SporeLook *look = data;
-  g_autoptr(GError) error = NULL;
-  if (!g_strv_contains(looks, g_variant_get_string(name, NULL))) return;
-  g_simple_action_set_state(action, name);
-  apply(look);
-  if (spore_preference_set(PREFERENCE, g_variant_get_string(name, NULL), &error)) return;
-  GtkWindow *window = gtk_application_get_active_window(GTK_APPLICATION(look->application));
-  if (window) g_action_group_activate_action(G_ACTION_GROUP(window), "report", g_variant_new_string(error->message));
-}
-
 SporeLook *spore_look_new(GApplication *application) {
   SporeLook *look = g_new0(SporeLook, 1);
-  g_autofree char *kept = spore_preference_get(PREFERENCE);
-  const char *name = kept && g_strv_contains(looks, kept) ? kept : looks[0];
   look->application = application;
-  look->action = g_simple_action_new_stateful("look", G_VARIANT_TYPE_STRING, g_variant_new_string(name));
   look->cancel = g_cancellable_new();
-  g_signal_connect(look->action, "change-state", G_CALLBACK(chose), look);
-  g_action_map_add_action(G_ACTION_MAP(application), G_ACTION(look->action));
+  g_signal_connect_swapped(application, "action-state-changed::" PREFERENCE, G_CALLBACK(apply), look);
   apply(look);
   GDBusConnection *bus = g_application_get_dbus_connection(application);
   if (bus)
@@ -116,9 +88,8 @@ SporeLook *spore_look_new(GApplication *application) {
 void spore_look_free(SporeLook *look) {
   g_cancellable_cancel(look->cancel);
   if (look->portal) g_signal_handlers_disconnect_by_data(look->portal, look);
-  g_signal_handlers_disconnect_by_data(look->action, look);
+  g_signal_handlers_disconnect_by_data(look->application, look);
   g_clear_object(&look->portal);
   g_object_unref(look->cancel);
-  g_object_unref(look->action);
   g_free(look);
 }

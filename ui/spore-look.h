@@ -6,8 +6,8 @@
 
 typedef struct SporeLook SporeLook;
 
-/* Takes what the user chose, and adds the action "look" to the application (state: "system", "light" or "dark"). The
- * application has its display, and outlives the look. */
+/* Follows the application's action "look". The application has its display and its preferences, and outlives the
+ * look. */
 SporeLook *spore_look_new(GApplication *application);
 void spore_look_free(SporeLook *look);
 

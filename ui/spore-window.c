@@ -5,9 +5,9 @@
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 #include "ui/jobs/loop-gaps.h"
+#include "ui/spore-preferences.h"
 #include "ui/spore-window-private.h"
 
-#define AUTOSAVE_S 60
 #define MONITOR_MS 250
 
 G_DEFINE_FINAL_TYPE(SporeWindow, spore_window, GTK_TYPE_APPLICATION_WINDOW)
@@ -122,6 +122,24 @@ static gboolean autosave(gpointer data) {
   if (!spore_recovery_keep(self->recovery, self->document, &error))
     spore_window_log(self, _("Unsaved work could not be kept: %s"), error->message);
   return G_SOURCE_CONTINUE;
+}
+
+/* What the user chose for all scenes holds at once. */
+static void follow_preferences(SporeWindow *self) {
+  GtkApplication *application = gtk_window_get_application(GTK_WINDOW(self));
+  if (!application) return; /* the window is going */
+  g_autofree char *turning = spore_preferences_state(application, "turning");
+  g_autofree char *wheel = spore_preferences_state(application, "wheel");
+  g_autofree char *pictures = spore_preferences_state(application, "pictures");
+  g_autofree char *keeping = spore_preferences_state(application, "keeping");
+  const SporeViewportHabits habits = {.middle_turns_alone = g_str_equal(turning, "middle"),
+                                      .wheel_goes_away = g_str_equal(wheel, "farther"),
+                                      .pictures = g_str_equal(pictures, "fine")    ? SPORE_PICTURES_FINE
+                                                  : g_str_equal(pictures, "plain") ? SPORE_PICTURES_PLAIN
+                                                                                   : SPORE_PICTURES_AUTOMATIC};
+  spore_viewport_set_habits(SPORE_VIEWPORT(self->viewport), &habits);
+  g_clear_handle_id(&self->autosave, g_source_remove);
+  self->autosave = g_timeout_add_seconds((guint)g_ascii_strtoull(keeping, NULL, 10), autosave, self);
 }
 
 static gboolean close_asked(GtkWidget *widget, GdkEvent *event, SporeWindow *self) {
@@ -260,7 +278,6 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_follow_recent(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));
-  self->autosave = g_timeout_add_seconds(AUTOSAVE_S, autosave, self);
   self->monitor = g_timeout_add(MONITOR_MS, poll_monitor, self);
 }
 
@@ -272,6 +289,8 @@ const char *spore_window_get_renderer(SporeWindow *self) {
 
 SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *schema, const char *scenes) {
   SporeWindow *self = g_object_new(SPORE_TYPE_WINDOW, "application", application, NULL);
+  g_signal_connect_object(application, "action-state-changed", G_CALLBACK(follow_preferences), self, G_CONNECT_SWAPPED);
+  follow_preferences(self);
   self->schema = schema;
   self->scenes = g_strdup(scenes);
   spore_window_fill_template_menu(self);

@@ -48,7 +48,8 @@
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
  *   others      search (for any of these), open-menu, report [s message]; of the application:
- *               look [s "system", "light" or "dark"; state], new-window, about, quit
+ *               preferences, reset-preferences, look, language, turning, wheel, pictures, keeping [s choice,
+ *               see document/preferences.c; state], new-window, about, quit
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

@@ -2124,9 +2124,9 @@ class Desktop:
         self.bus.unregister_object(self.object)
 
 
-def is_dark(editor):
+def is_dark(editor, heading="Gravity"):
     """Whether a heading beside the view is lighter than grey; None: it does not say."""
-    colour = editor.atspi.Text.get_default_attributes(editor.find("label", "^Gravity$")).get("fg-color")
+    colour = editor.atspi.Text.get_default_attributes(editor.find("label", f"^{heading}$")).get("fg-color")
     return sum(map(int, colour.split(","))) / 3 > 32768 if colour else None
 
 
@@ -2147,6 +2147,40 @@ def dark_and_light_follow_the_system():
             ui.wait(lambda: is_dark(editor) is True, "what was chosen once")
             editor.act_on_program("look", "s", "system")
             ui.wait(lambda: is_dark(editor) is False, "the system again")
+
+
+@check
+def preferences_are_kept_and_reset():
+    """a window with the keyboard's own key holds what is chosen for all scenes: it holds at once, or is said to wait for the next start, is kept, and goes back in one press."""
+    choices = str(folder("preferences"))
+    with start(XDG_CONFIG_HOME=choices) as editor:
+        ui.wait(lambda: is_dark(editor) is False, "light windows")
+        editor.mouse("key", "ctrl+comma")
+        editor.find("dialog", "^Preferences$")
+        box = lambda name: inside(editor, "Preferences", "combo box", f"^{name}$")
+        editor.choose(box("Windows"), "Dark windows")
+        ui.wait(lambda: is_dark(editor) is True, "dark windows, at once")
+        inside(editor, "Preferences", "label", "changes when the program is started again")
+        editor.choose(box("Language"), "Français")
+        editor.choose(box("Wheel in the view"), "Goes farther away")
+        editor.choose(box("Keeping unsaved work"), "Every 5 minutes")
+        editor.choose(box("Quality of pictures"), "Always plain")
+        keep_picture(editor, "preferences")
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.look("dialog", "^Preferences$"), "the window of preferences to close")
+        editor.find("push button", "^Import$")  # in English still
+    with start(XDG_CONFIG_HOME=choices) as editor:
+        editor.find("push button", "^Importer$")
+        ui.wait(lambda: is_dark(editor, "Gravité") is True, "what was chosen once")
+        editor.mouse("key", "ctrl+comma")
+        editor.find("dialog", "^Préférences$")
+        keep_picture(editor, "preferences-french")
+        assert editor.chosen(inside(editor, "Préférences", "combo box", "^Molette dans la vue$")) == "Éloigne"
+        editor.press(inside(editor, "Préférences", "push button", "^Tout réinitialiser$"))
+        ui.wait(lambda: is_dark(editor, "Gravité") is False, "the presets")
+        assert editor.chosen(inside(editor, "Préférences", "combo box", "^Molette dans la vue$")) == "Rapproche"
+    kept = (pathlib.Path(choices) / "spore/editor.ini").read_text()
+    assert "language=system" in kept and "keeping=60" in kept and "look=system" in kept, kept
 
 
 @check
@@ -2264,7 +2298,7 @@ def a_drag_beside_turns_the_view():
     balls = "".join(f'<body name="{name}" role="unmovable" position="{x} 0 0"><visual mesh="ball"/></body>' for name, x in (("left", -0.3), ("right", 0.3)))
     path = folder_ / "scene.spore"
     path.write_text(f'<spore version="1.0"><assets><mesh name="ball" file="ball.off"/></assets><bodies>{balls}</bodies></spore>\n')
-    with start(path) as editor:
+    with start(path, XDG_CONFIG_HOME=str(folder("turning"))) as editor:
         ui.wait(lambda: editor.row("left"), "the scene")
         editor.act("view", "s", "front")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
@@ -2306,8 +2340,12 @@ def a_drag_beside_turns_the_view():
         editor.find("menu item", "^Show only this$")
         editor.mouse("key", "Escape")
         ui.wait(lambda: not editor.look("menu item", "^Show only this$"), "the menu to close")
-        editor.mouse("mousemove", *beside, "mousedown", 1, "mousemove_relative", "--", 40, 0, "mousemove_relative", "--", 40, 0,
-                     "mousemove_relative", "--", 40, 0, "sleep", 0.2, "mouseup", 1)
+        drag = ("mousemove", *beside, "mousedown", 1, *3 * ("mousemove_relative", "--", 40, 0), "sleep", 0.2, "mouseup", 1)
+        editor.act_on_program("turning", "s", "middle")
+        editor.mouse(*drag)
+        assert selects(at), "the middle button alone turns, by preference"
+        editor.act_on_program("turning", "s", "left")
+        editor.mouse(*drag)
         assert editor.enabled("delete"), "the selection stays"
         assert not selects(at), "the view has turned"
 

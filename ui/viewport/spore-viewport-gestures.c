@@ -194,7 +194,7 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   if (self->beside &&
       gtk_drag_check_threshold(area, (int)self->pressed_x, (int)self->pressed_y, (int)event->x, (int)event->y)) {
     self->beside = FALSE;
-    begin_camera(self, event->state & GDK_SHIFT_MASK);
+    if (!self->habits.middle_turns_alone) begin_camera(self, event->state & GDK_SHIFT_MASK);
   }
   switch (self->drag) {
   case DRAG_NONE:
@@ -243,7 +243,8 @@ gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeView
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && session_of(self)) spore_viewport_hand_deepen(self, notches);
   else if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !spore_viewport_edit_scroll(self, notches)) {
     spore_viewport_leave_scene_camera(self);
-    spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -notches), event->x, event->y, width_of(self), height_of(self));
+    double away = self->habits.wheel_goes_away ? -notches : notches;
+    spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -away), event->x, event->y, width_of(self), height_of(self));
   }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;

@@ -26,10 +26,14 @@ void spore_viewport_drop_drawing(SporeViewport *self) {
   self->drawing.of = NULL;
 }
 
+static gboolean is_fine(SporeViewport *self) {
+  if (self->habits.pictures == SPORE_PICTURES_AUTOMATIC) return !spore_offscreen_is_software(self->offscreen);
+  return self->habits.pictures == SPORE_PICTURES_FINE;
+}
+
 static void begin(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera, int width,
                   int height) {
-  SporeRenderOptions options = {width, height, .grid = !self->presented,
-                                .antialias = !spore_offscreen_is_software(self->offscreen),
+  SporeRenderOptions options = {width, height, .grid = !self->presented, .antialias = is_fine(self),
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;
   gint64 now = g_get_monotonic_time();
@@ -111,4 +115,10 @@ void spore_viewport_size_second(SporeViewport *self) {
 void spore_viewport_set_second_view(SporeViewport *self, gboolean on) {
   self->second_on = on;
   spore_viewport_redraw(self);
+}
+
+void spore_viewport_set_habits(SporeViewport *self, const SporeViewportHabits *habits) {
+  gboolean other = self->habits.pictures != habits->pictures;
+  self->habits = *habits;
+  if (other) spore_viewport_redraw(self);
 }

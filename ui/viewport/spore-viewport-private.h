@@ -49,6 +49,7 @@ struct _SporeViewport {
   SporeEditorDocument *document;
   SporePlayer *player;
   SporeViewportTool tool;
+  SporeViewportHabits habits;
   gboolean picking;
   SporeVec3 anchors[2]; /* places that are picked so far */
   guint anchor_count;

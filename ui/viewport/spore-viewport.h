@@ -45,6 +45,14 @@ typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEW
 /* Handles over the picture by which what is selected is moved, turned or scaled. */
 typedef enum { SPORE_GIZMO_NONE, SPORE_GIZMO_MOVE, SPORE_GIZMO_TURN, SPORE_GIZMO_SCALE } SporeGizmo;
 
+/* What a user is used to, for all scenes. All zero: as nobody chose. */
+typedef struct SporeViewportHabits {
+  gboolean middle_turns_alone; /* a drag of the left button beside the bodies does not turn the view */
+  gboolean wheel_goes_away;    /* upward */
+  enum { SPORE_PICTURES_AUTOMATIC, SPORE_PICTURES_FINE, SPORE_PICTURES_PLAIN } pictures;
+} SporeViewportHabits;
+void spore_viewport_set_habits(SporeViewport *self, const SporeViewportHabits *habits);
+
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is being opened: the welcome is hidden. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
