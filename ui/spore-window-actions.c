@@ -13,6 +13,10 @@ static SporeDocument *document_of(SporeWindow *self) { return spore_editor_docum
 
 /* History and objects. */
 
+static void act_move_row(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_outliner_move(SPORE_OUTLINER(((SporeWindow *)data)->outliner), g_variant_get_int32(parameter));
+}
+
 static void act_undo(GSimpleAction *action, GVariant *parameter, gpointer data) {
   spore_document_undo(document_of(data));
 }
@@ -364,6 +368,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"redo", act_redo},
       {"select", act_select, "s"},
       {"rename", act_rename, "s"},
+      {"move-row", act_move_row, "i"},
       {"rename-dialog", act_rename_dialog},
       {"set-property", act_set_property, "(sss)"},
       {"unset-property", act_unset_property, "(ss)"},

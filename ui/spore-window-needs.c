@@ -90,6 +90,7 @@ static const struct {
     {"redo", REDO},
     {"save", UNSAVED},
     {"delete", NAMED},
+    {"move-row", NAMED},
     {"rename", NAMED | ALONE},
     {"rename-dialog", NAMED | ALONE},
     {"make-soft", IDLE | SOFT},

@@ -54,6 +54,8 @@ static const struct {
     {"win.patient::trendelenburg", N_("Patient: head down (Trendelenburg)")},
     {"win.patient::reverse_trendelenburg", N_("Patient: head up (reverse Trendelenburg)")},
     {"win.patient::upright", N_("Patient: upright")},
+    {"win.move-row(-1)", N_("Outliner: move up in the list")},
+    {"win.move-row(1)", N_("Outliner: move down in the list")},
     {"win.filter", N_("Filter the outliner")},
     {"win.preview-spheres(uint32 0)", N_("Generate spheres")},
     {"win.preview-tetrahedra(uint32 0)", N_("Generate tetrahedra")},

@@ -11,7 +11,8 @@
  *               save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close, locate [s missing file, as the scene names it, s path], locate-dialog
- *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
+ *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
+ *               move-row [i -1 or 1] (of what is selected, in its list), set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
  *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,

@@ -2047,6 +2047,59 @@ def a_missing_file_is_located():
         editor.find("label", "of the scene (is|are) not in its folder")
 
 
+def order_of(text, group="bodies"):
+    """Names of what a saved scene lists there."""
+    return [one.get("name") for one in xml.etree.ElementTree.fromstring(text).find(group)]
+
+
+def drag_row(editor, name, onto, done):
+    """Drags a row to the upper rim of another one, a little with each question, until that is done: when the program takes up a drag,
+    and when it has seen the last way of the mouse, is its own affair."""
+    place = lambda row: editor.place(ui.wait(lambda: editor.row(row), row))
+
+    def tries():
+        while True:
+            x, y, width, height = place(name)
+            to_x, to_y, _, _ = place(onto)
+            for step in (("mousemove", x + 20, y + height // 2, "mousedown", 1), ("mousemove", x + 30, y + height // 2 + 8),
+                         ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3), ("mouseup", 1)):
+                editor.mouse(*step)
+                yield False
+            for _ in range(6):
+                yield done()
+    answers = tries()
+    ui.wait(lambda: next(answers), f"{name} to be dragged")
+
+
+@check
+def rows_of_the_outliner_are_ordered():
+    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own."""
+    path = write_scene("ordered", "<rigid_body/>")
+    path.write_text(path.read_text().replace("</bodies>", '<body name="third" role="unmovable"/></bodies><tools><camera name="eye"/></tools>'))
+    row_at = lambda name: editor.place(ui.wait(lambda: editor.row(name), name))
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("third"), "the scene")
+        assert row_at("Cameras")[1] < row_at("eye")[1] < row_at("Effects")[1], "the camera stands below its heading"
+        editor.focus()
+        editor.act("select", "s", "bodies/third")
+        editor.atspi.Component.grab_focus(editor.find("tree table", "^Outliner$"))
+        editor.keys("alt+Up")
+        ui.wait(lambda: row_at("third")[1] < row_at("floor")[1], "the row to go up")
+        assert order_of(saved(editor, "up")) == ["ball", "third", "floor"]
+        editor.keys("alt+Up")
+        ui.wait(lambda: row_at("third")[1] < row_at("ball")[1], "the row to go up again: it is still selected")
+        editor.keys("alt+Up")  # no farther
+        editor.keys("Menu")
+        editor.press(editor.find("menu item", "^Move down$"))
+        ui.wait(lambda: row_at("ball")[1] < row_at("third")[1], "the row to go down")
+        assert order_of(saved(editor, "down")) == ["ball", "third", "floor"]
+        keep_picture(editor, "outliner")
+        drag_row(editor, "floor", "ball", lambda: row_at("floor")[1] < row_at("ball")[1])
+        assert order_of(saved(editor, "dragged")) == ["floor", "ball", "third"]
+        editor.act("undo")
+        ui.wait(lambda: row_at("ball")[1] < row_at("third")[1] < row_at("floor")[1], "the order of before")
+
+
 @check
 def what_nothing_holds_is_offered_to_be_held():
     """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not."""

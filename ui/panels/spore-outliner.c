@@ -1,5 +1,5 @@
-/* The outliner: organs, instruments, effects, links and assets of the scene as a tree. */
-#include "ui/panels/spore-outliner.h"
+/* The outliner: organs, instruments, cameras, effects, links and assets of the scene as a tree. */
+#include "ui/panels/spore-outliner-private.h"
 
 #include <glib/gi18n.h>
 #include <string.h>
@@ -7,33 +7,6 @@
 #include "core/scene/check.h"
 #include "core/sim/world.h"
 #include "ui/panels/report.h"
-
-enum {
-  COLUMN_ID,
-  COLUMN_NAME,
-  COLUMN_BADGE,
-  COLUMN_HINT /* markup */,
-  COLUMN_EDITABLE,
-  COLUMN_WEIGHT,
-  COLUMN_KIND,
-  COLUMN_EYE /* icon; NULL: nothing that a view could hide */
-};
-
-struct _SporeOutliner {
-  GtkBox parent;
-  GtkWidget *filter, *tree;
-  GtkTreeStore *store;
-  GtkTreeModelFilter *filtered;
-  GtkTreeSelection *selection;
-  GtkTreeViewColumn *column, *eye;
-  GtkCellRenderer *name;
-  SporeEditorDocument *document;
-  guint rebuild;
-  gboolean filling;
-  GHashTable *badges;   /* id -> SporeSeverity + 1 */
-  GHashTable *problems; /* id -> char *: what the badge stands for */
-  GHashTable *hidden;   /* ids of bodies that are hidden in the view; the view's; NULL: not told yet */
-};
 
 G_DEFINE_FINAL_TYPE(SporeOutliner, spore_outliner, GTK_TYPE_BOX)
 
@@ -81,6 +54,14 @@ static void add_section(SporeOutliner *self, GtkTreeIter *group, const char *ele
   }
 }
 
+static void add_tools(SporeOutliner *self, GtkTreeIter *group, gboolean cameras) {
+  SporeObject *section = spore_document_section(spore_editor_document_get(self->document), "tools");
+  for (guint i = 0; i < spore_object_child_count(section); i++) {
+    SporeObject *tool = spore_object_child(section, i);
+    if (g_str_equal(spore_object_type(tool)->element, "camera") == cameras) add_object(self, group, tool);
+  }
+}
+
 static void add_bodies(SporeOutliner *self, GtkTreeIter *group, gboolean active) {
   SporeObject *section = spore_document_section(spore_editor_document_get(self->document), "bodies");
   for (guint i = 0; i < spore_object_child_count(section); i++) {
@@ -97,8 +78,10 @@ static void fill(SporeOutliner *self) {
   add_bodies(self, &group, FALSE);
   add_group(self, _("Instruments"), 0, &group);
   add_bodies(self, &group, TRUE);
-  add_section(self, &group, "tools");
+  add_tools(self, &group, FALSE);
   add_section(self, &group, "devices");
+  add_group(self, _("Cameras"), 0, &group);
+  add_tools(self, &group, TRUE);
   add_group(self, _("Effects"), 0, &group);
   add_section(self, &group, "effects");
   add_group(self, _("Links"), 0, &group);
@@ -156,17 +139,29 @@ static gboolean may_select(GtkTreeSelection *selection, GtkTreeModel *model, Gtk
   return id != 0;
 }
 
+/* Arrow keys go on from the selected row. */
+static gboolean put_cursor(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  guint id;
+  gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
+  if (!id || id != spore_editor_document_get_selection(self->document)) return FALSE;
+  gtk_tree_view_set_cursor(GTK_TREE_VIEW(self->tree), path, NULL, FALSE);
+  return TRUE;
+}
+
 static gboolean rebuild(gpointer data) {
   SporeOutliner *self = data;
   self->rebuild = 0;
+  if (self->dragged) return G_SOURCE_REMOVE; /* the end of the drag queues it again */
   self->filling = TRUE;
   fill(self);
+  gtk_tree_model_foreach(GTK_TREE_MODEL(self->filtered), put_cursor, self);
   self->filling = FALSE;
   show_selection(self);
   return G_SOURCE_REMOVE;
 }
 
-static void queue_rebuild(SporeOutliner *self) {
+void spore_outliner_queue_rebuild(SporeOutliner *self) {
   if (!self->rebuild && self->document) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
@@ -175,7 +170,8 @@ static void document_changed(SporeOutliner *self, int kind, guint id, guint prop
   SporeObject *object =
       kind == SPORE_DOCUMENT_SET ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
   const SporeParameter *parameter = object ? &spore_object_type(object)->table->parameters[property] : NULL;
-  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role")) queue_rebuild(self);
+  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role"))
+    spore_outliner_queue_rebuild(self);
 }
 
 /* Filter. */
@@ -230,7 +226,10 @@ void spore_outliner_rename(SporeOutliner *self) {
 }
 
 static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *self) {
+  gboolean alt = event->state & GDK_MOD1_MASK;
   if (event->keyval == GDK_KEY_F2) spore_outliner_rename(self);
+  else if (alt && event->keyval == GDK_KEY_Up) spore_outliner_move(self, -1);
+  else if (alt && event->keyval == GDK_KEY_Down) spore_outliner_move(self, 1);
   else if (event->keyval == GDK_KEY_Delete) spore_activate(tree, "delete", NULL);
   else if (event->keyval == GDK_KEY_a && event->state & GDK_CONTROL_MASK) spore_activate(tree, "select-organs", NULL);
   else return GDK_EVENT_PROPAGATE;
@@ -255,18 +254,27 @@ void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden) {
   if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_eye, self);
 }
 
+static gboolean tree_menu(GtkWidget *tree, SporeOutliner *self) {
+  g_autoptr(GtkTreePath) path = NULL;
+  gtk_tree_view_get_cursor(GTK_TREE_VIEW(tree), &path, NULL);
+  if (path) spore_outliner_popup(self, NULL, path);
+  return path != NULL;
+}
+
 /* A click on an eye hides the body or shows it, and selects nothing. */
 static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutliner *self) {
   g_autoptr(GtkTreePath) path = NULL;
   GtkTreeViewColumn *column;
-  GtkTreeIter iter;
-  guint id = 0;
-  if (event->type != GDK_BUTTON_PRESS || event->button != GDK_BUTTON_PRIMARY ||
-      !gtk_tree_view_get_path_at_pos(GTK_TREE_VIEW(tree), (int)event->x, (int)event->y, &path, &column, NULL, NULL) ||
-      column != self->eye || !gtk_tree_model_get_iter(GTK_TREE_MODEL(self->filtered), &iter, path))
+  if (event->type != GDK_BUTTON_PRESS ||
+      !gtk_tree_view_get_path_at_pos(GTK_TREE_VIEW(tree), (int)event->x, (int)event->y, &path, &column, NULL, NULL))
     return GDK_EVENT_PROPAGATE;
-  gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), &iter, COLUMN_ID, &id, -1);
-  SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
+  if (event->button == GDK_BUTTON_SECONDARY) {
+    gtk_widget_grab_focus(tree);
+    spore_outliner_popup(self, (const GdkEvent *)event, path);
+    return GDK_EVENT_STOP;
+  }
+  SporeObject *object = spore_outliner_object_at(self, path);
+  if (event->button != GDK_BUTTON_PRIMARY || column != self->eye) return GDK_EVENT_PROPAGATE;
   if (!object || !eye_of(self, object)) return GDK_EVENT_PROPAGATE;
   g_autofree char *of_body = spore_object_path(object);
   spore_activate(tree, "hide-or-show", g_variant_new_string(of_body));
@@ -309,7 +317,7 @@ void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics) {
     g_hash_table_insert(self->badges, id, GINT_TO_POINTER(badge));
     g_hash_table_insert(self->problems, id, g_strdup(diagnostic->message));
   }
-  queue_rebuild(self);
+  spore_outliner_queue_rebuild(self);
 }
 
 static void spore_outliner_dispose(GObject *object) {
@@ -338,6 +346,7 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
   gtk_widget_class_bind_template_callback(widget, name_edited);
   gtk_widget_class_bind_template_callback(widget, tree_key);
   gtk_widget_class_bind_template_callback(widget, tree_pressed);
+  gtk_widget_class_bind_template_callback(widget, tree_menu);
 }
 
 static void spore_outliner_init(SporeOutliner *self) {
@@ -345,5 +354,6 @@ static void spore_outliner_init(SporeOutliner *self) {
   self->problems = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   gtk_widget_init_template(GTK_WIDGET(self));
   gtk_tree_model_filter_set_visible_func(self->filtered, row_visible, self, NULL);
+  spore_outliner_take_drags(self);
   gtk_tree_selection_set_select_function(self->selection, may_select, self, NULL);
 }

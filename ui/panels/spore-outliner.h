@@ -1,4 +1,4 @@
-/* Organs, instruments, links and assets of the scene as a tree. */
+/* Organs, instruments, cameras, links and assets of the scene as a tree. */
 #ifndef SPORE_UI_PANELS_SPORE_OUTLINER_H
 #define SPORE_UI_PANELS_SPORE_OUTLINER_H
 
@@ -19,6 +19,8 @@ void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics);
 void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden);
 /* Begins to edit the name of the selected object. */
 void spore_outliner_rename(SporeOutliner *self);
+/* Moves the selected rows up (-1) or down (1) by one in their list, and so in the scene. */
+void spore_outliner_move(SporeOutliner *self, int by);
 void spore_outliner_focus_filter(SporeOutliner *self);
 
 G_END_DECLS

@@ -1,0 +1,48 @@
+/* Inside the outliner: its state, and its files from the lowest up. */
+#ifndef SPORE_UI_PANELS_SPORE_OUTLINER_PRIVATE_H
+#define SPORE_UI_PANELS_SPORE_OUTLINER_PRIVATE_H
+
+#include "ui/panels/spore-outliner.h"
+
+enum {
+  COLUMN_ID, /* of the object; 0: a heading */
+  COLUMN_NAME,
+  COLUMN_BADGE,
+  COLUMN_HINT /* markup */,
+  COLUMN_EDITABLE,
+  COLUMN_WEIGHT,
+  COLUMN_KIND,
+  COLUMN_EYE /* icon; NULL: nothing that a view could hide */
+};
+
+struct _SporeOutliner {
+  GtkBox parent;
+  GtkWidget *filter, *tree, *menu; /* menu: the last one that was shown; NULL: none yet */
+  GtkTreeStore *store;
+  GtkTreeModelFilter *filtered;
+  GtkTreeSelection *selection;
+  GtkTreeViewColumn *column, *eye;
+  GtkCellRenderer *name;
+  SporeEditorDocument *document;
+  guint rebuild;
+  gboolean filling;
+  GHashTable *badges;   /* id -> SporeSeverity + 1 */
+  GHashTable *problems; /* id -> char *: what the badge stands for */
+  GHashTable *hidden;   /* ids of bodies that are hidden in the view; the view's; NULL: not told yet */
+  guint32 dragged;      /* id of the row that is dragged; 0: none, and so long the rows stay as they are */
+};
+
+/* spore-outliner.c */
+void spore_outliner_queue_rebuild(SporeOutliner *self);
+
+/* spore-outliner-order.c: moving rows within their list. */
+/* Lets rows be dragged. */
+void spore_outliner_take_drags(SporeOutliner *self);
+/* Object of the row, which the filter shows; NULL: a heading. */
+SporeObject *spore_outliner_object_at(SporeOutliner *self, GtkTreePath *path);
+
+/* spore-outliner-menu.c: the menu of the right button and of the Menu key. */
+/* event: what asked for it; path: of the row. */
+void spore_outliner_popup(SporeOutliner *self, const GdkEvent *event, GtkTreePath *path);
+
+#endif
