@@ -65,11 +65,6 @@ static void drag_begins(GtkWidget *tree, GdkDragContext *context, SporeOutliner 
   self->dragged = object ? spore_object_id(object) : 0;
 }
 
-static void drag_ends(GtkWidget *tree, GdkDragContext *context, SporeOutliner *self) {
-  self->dragged = 0;
-  spore_outliner_queue_rebuild(self);
-}
-
 typedef struct Row {
   guint32 id;
   GtkTreePath *path; /* NULL: not found */
@@ -129,7 +124,6 @@ void spore_outliner_take_drags(SporeOutliner *self) {
   gtk_tree_view_enable_model_drag_source(tree, GDK_BUTTON1_MASK, targets, G_N_ELEMENTS(targets), GDK_ACTION_MOVE);
   gtk_tree_view_enable_model_drag_dest(tree, targets, G_N_ELEMENTS(targets), GDK_ACTION_MOVE);
   g_signal_connect(tree, "drag-begin", G_CALLBACK(drag_begins), self);
-  g_signal_connect(tree, "drag-end", G_CALLBACK(drag_ends), self);
   g_signal_connect(tree, "drag-motion", G_CALLBACK(drag_moves), self);
   g_signal_connect(tree, "drag-drop", G_CALLBACK(drag_drops), self);
 }

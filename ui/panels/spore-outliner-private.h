@@ -32,9 +32,6 @@ struct _SporeOutliner {
   guint32 dragged;      /* id of the row that is dragged; 0: none, and so long the rows stay as they are */
 };
 
-/* spore-outliner.c */
-void spore_outliner_queue_rebuild(SporeOutliner *self);
-
 /* spore-outliner-order.c: moving rows within their list. */
 /* Lets rows be dragged. */
 void spore_outliner_take_drags(SporeOutliner *self);

@@ -161,8 +161,13 @@ static gboolean rebuild(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
-void spore_outliner_queue_rebuild(SporeOutliner *self) {
+static void queue_rebuild(SporeOutliner *self) {
   if (!self->rebuild && self->document) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
+}
+
+static void drag_ends(GtkWidget *tree, GdkDragContext *context, SporeOutliner *self) {
+  self->dragged = 0;
+  queue_rebuild(self);
 }
 
 /* Only names, roles and the objects that exist are shown here. */
@@ -170,8 +175,7 @@ static void document_changed(SporeOutliner *self, int kind, guint id, guint prop
   SporeObject *object =
       kind == SPORE_DOCUMENT_SET ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
   const SporeParameter *parameter = object ? &spore_object_type(object)->table->parameters[property] : NULL;
-  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role"))
-    spore_outliner_queue_rebuild(self);
+  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role")) queue_rebuild(self);
 }
 
 /* Filter. */
@@ -317,7 +321,7 @@ void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics) {
     g_hash_table_insert(self->badges, id, GINT_TO_POINTER(badge));
     g_hash_table_insert(self->problems, id, g_strdup(diagnostic->message));
   }
-  spore_outliner_queue_rebuild(self);
+  queue_rebuild(self);
 }
 
 static void spore_outliner_dispose(GObject *object) {
@@ -355,5 +359,6 @@ static void spore_outliner_init(SporeOutliner *self) {
   gtk_widget_init_template(GTK_WIDGET(self));
   gtk_tree_model_filter_set_visible_func(self->filtered, row_visible, self, NULL);
   spore_outliner_take_drags(self);
+  g_signal_connect(self->tree, "drag-end", G_CALLBACK(drag_ends), self);
   gtk_tree_selection_set_select_function(self->selection, may_select, self, NULL);
 }
