@@ -209,14 +209,41 @@ static gboolean is_on(SporeWindow *self, const char *action) {
   return g_variant_get_boolean(state);
 }
 
-static void change_overlay(GSimpleAction *action, GVariant *state, gpointer data) {
-  SporeWindow *self = data;
-  g_simple_action_set_state(action, state);
+/* What the colours of surfaces show. */
+static SporeStageField field_of(SporeWindow *self) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "colours");
+  SporeStageField field = SPORE_FIELD_NONE;
+  for (SporeStageField i = 0; i < SPORE_FIELD_COUNT; i++)
+    if (g_str_equal(g_variant_get_string(state, NULL), spore_stage_field_names[i])) field = i;
+  return field;
+}
+
+static void show_overlays(SporeWindow *self) {
   SporeStageOptions options = {.surfaces = is_on(self, "show-surfaces"),
                                .spheres = is_on(self, "show-spheres"),
                                .tetrahedra = is_on(self, "show-tetrahedra"),
-                               .contacts = is_on(self, "show-contacts")};
-  spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options);
+                               .contacts = is_on(self, "show-contacts"),
+                               .field = field_of(self)};
+  spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options, is_on(self, "keep-scale"));
+}
+
+static void change_overlay(GSimpleAction *action, GVariant *state, gpointer data) {
+  g_simple_action_set_state(action, state);
+  show_overlays(data);
+}
+
+/* Without colours there is no scale to keep. */
+static void change_keep_scale(GSimpleAction *action, GVariant *state, gpointer data) {
+  gboolean keep = g_variant_get_boolean(state) && field_of(data) != SPORE_FIELD_NONE;
+  g_simple_action_set_state(action, g_variant_new_boolean(keep));
+  show_overlays(data);
+}
+
+/* Another measure has another scale. */
+static void change_colours(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "keep-scale", g_variant_new_boolean(FALSE));
 }
 
 static void change_reach(GSimpleAction *action, GVariant *state, gpointer data) {
@@ -397,6 +424,8 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-spheres", NULL, NULL, "false", change_overlay},
       {"show-tetrahedra", NULL, NULL, "false", change_overlay},
       {"show-contacts", NULL, NULL, "false", change_overlay},
+      {"colours", NULL, "s", "'none'", change_colours},
+      {"keep-scale", NULL, NULL, "false", change_keep_scale},
       {"show-reach", NULL, NULL, "false", change_reach},
       {"show-figures", NULL, NULL, "false", change_figures},
       {"show-outliner", NULL, NULL, "true", change_panel},

@@ -112,6 +112,8 @@ static const struct {
     {"lead", HANDS},
     {"lead-next", HANDS},
     {"show-reach", PORTS | BODIES},
+    {"colours", BODIES},
+    {"keep-scale", BODIES},
     {"swap-views", CAMERA | BODIES},
     {"second-view", CAMERA | BODIES},
     {"turn-optic", CAMERA},

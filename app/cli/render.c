@@ -12,9 +12,10 @@
 #define LARGEST_SIDE 8192
 #define LARGEST_FPS 1000
 #define LARGEST_SPEED 1000
+#define HIGHEST_FIELD 1e15
 
 typedef struct RenderOptions {
-  char *size, *output, *camera, *time, *beside, *clip, *reach;
+  char *size, *output, *camera, *time, *beside, *clip, *reach, *field, *field_end;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
   gboolean spheres, tetrahedra;
@@ -80,6 +81,24 @@ static gboolean parse_clip(const char *text, SporeClip *clip, GError **error) {
   return TRUE;
 }
 
+/* One scale for all pictures, or their colours could not be compared. */
+static gboolean parse_field(const RenderOptions *options, SporeReelKind kind, SporeStageOptions *shown,
+                            GError **error) {
+  if (options->field_end && !options->field)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--field-end", "%s",
+                             _("it is the end of a scale, and no colours are asked for; expected --field as well"));
+  for (guint i = 0; options->field && spore_stage_field_names[i]; i++)
+    if (g_str_equal(options->field, spore_stage_field_names[i])) shown->field = i;
+  if (options->field && shown->field == SPORE_FIELD_NONE)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--field",
+                             _("'%s' is nothing that colours show; expected strain, stress or velocity"),
+                             options->field);
+  if (options->field && !options->field_end && (options->beside || kind != SPORE_REEL_PICTURE))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--field", "%s",
+                             _("several pictures need one scale of colours; expected --field-end as well"));
+  return parse_rate("--field-end", options->field_end, HIGHEST_FIELD, &shown->field_end, error);
+}
+
 /* A film's size is bounded where the pictures of two runs stand in a row. */
 static gboolean check_width(const RenderOptions *options, int width, GError **error) {
   if (!options->beside || 2 * width <= LARGEST_SIDE) return TRUE;
@@ -98,7 +117,7 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                             .speed = 1,
                             .camera = options->camera,
                             .ports = options->reach,
-                            .shown = {TRUE, options->spheres, options->tetrahedra, FALSE},
+                            .shown = {.surfaces = TRUE, .spheres = options->spheres, .tetrahedra = options->tetrahedra},
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
   for (gsize i = 0; kind == SPORE_REEL_PICTURE && i < G_N_ELEMENTS(of_films); i++)
@@ -107,7 +126,8 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                                _("is the name of one picture, and %s is of several; expected F-%%05d.png (a row of "
                                  "pictures) or F.webm (a film)"),
                                of_films[i].option);
-  return parse_size(options->size, &filming->width, &filming->height, error) &&
+  return parse_field(options, kind, &filming->shown, error) &&
+         parse_size(options->size, &filming->width, &filming->height, error) &&
          check_width(options, filming->width, error) && parse_clip(options->clip, &filming->clip, error) &&
          parse_rate("--fps", options->fps, LARGEST_FPS, &filming->fps, error) &&
          parse_rate("--speed", options->speed, LARGEST_SPEED, &filming->speed, error) &&
@@ -191,6 +211,13 @@ static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *n
   return TRUE;
 }
 
+static void tell_field(SporeCli *cli, const char *field, const SporeStageLegend *legend) {
+  spore_cli_text(cli, "field", field);
+  if (legend->high) spore_cli_number(cli, "field_end", legend->end);
+  g_autofree char *text = spore_stage_legend_text(legend);
+  spore_cli_say(cli, "%s\n", text);
+}
+
 static void tell(SporeCli *cli, const char *output, const SporeFilmed *filmed) {
   spore_cli_count(cli, "width", filmed->width);
   spore_cli_count(cli, "height", filmed->height);
@@ -219,13 +246,16 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   if (options->reach && !tell_reach(cli, runs.runs[0]->document, options->reach, &error)) return spore_cli_fail(error);
   if (!spore_filming_run(&filming, spore_cli_progress(cli), &filmed, &error)) return spore_cli_fail(error);
   tell(cli, options->output, &filmed);
+  if (filmed.coloured) tell_field(cli, options->field, &filmed.legend);
+  spore_stage_legend_clear(&filmed.legend);
   g_free(filmed.gl_renderer);
   return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }
 
 static void clear_options(RenderOptions *options) {
-  char *const texts[] = {options->clip, options->reach,  options->size, options->output, options->camera,
-                         options->time, options->beside, options->from, options->fps,    options->speed};
+  char *const texts[] = {options->field,  options->field_end, options->clip,   options->reach,
+                         options->size,   options->output,    options->camera, options->time,
+                         options->beside, options->from,      options->fps,    options->speed};
   for (gsize i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
   g_strfreev(options->level);
   spore_scene_options_clear(&options->scene);
@@ -239,6 +269,9 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"length_s", N_("of the film or the row, s; 0: a single picture")},
       {"gl_renderer", N_("what drew it")},
       {"reach", N_("with --reach, of each organ: body, share of its surface that is reached at the start")},
+      {"field", N_("what colours show: strain, stress or velocity, with --field")},
+      {"field_end",
+       N_("end of the scale of colours, which begins at 0; strain: 1 is 100 %; stress: Pa; velocity: m/s")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "render", "SCENE", N_("Makes a picture of a scene (PNG), a row of pictures, or a film (WebM)."), 1, 1, members};
@@ -269,6 +302,14 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"reach", 0, 0, G_OPTION_ARG_STRING, &options.reach,
        N_("Show what is reached through this port, or through all of them (all): cones, and what none reaches in blue"),
        "PORT"},
+      {"field", 0, 0, G_OPTION_ARG_STRING, &options.field,
+       N_("Colour soft bodies by strain (largest principal Green's strain), stress (von Mises, from the body's own "
+          "law) "
+          "or velocity"),
+       "WHAT"},
+      {"field-end", 0, 0, G_OPTION_ARG_STRING, &options.field_end,
+       N_("End of the scale of colours, in SI units (0.2: 20 % strain); default: it follows the state that is shown"),
+       "N"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),

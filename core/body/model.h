@@ -293,6 +293,12 @@ struct SporeModelType {
   /* Corners of the triangles of its surface, nodes, three each, from spore_allocate: what a needle pierces. False: no
    * memory. NULL: it cannot be pierced. */
   bool (*skin)(const SporeModel *model, uint32_t **triangles, size_t *count);
+  /* The same material, as fields say, in elements that hang together nowhere: each has its own nodes, as many as the
+   * others, one element after the other in the order of the mesh, corners first. *nodes: which node of this model, as
+   * it was created, each of them is, from spore_allocate; *count: of elements. Any thread may ask, while a world moves
+   * the model. NULL with the error: no memory. NULL: the force on an element does not follow from its own nodes alone.
+   */
+  SporeModel *(*apart)(const SporeModel *model, const void *fields, uint32_t **nodes, size_t *count, SporeError *error);
   /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
    * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
   bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);

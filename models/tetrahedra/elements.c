@@ -124,6 +124,24 @@ bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTet
   return made && find_factors(nodes, regions);
 }
 
+bool spore_tetrahedron_nodes_part(SporeTetrahedronNodes *apart, const SporeTetrahedronNodes *whole) {
+  size_t per = whole->per_element, elements = whole->mesh.tetrahedron_count, count = per * elements;
+  *apart = (SporeTetrahedronNodes){.count = count, .per_element = per};
+  if (!spore_tetrahedral_mesh_allocate(&apart->mesh, count, elements, NULL)) return false;
+  apart->rest = SPORE_NEW_ARRAY(double, 3 * count);
+  apart->nodes = SPORE_NEW_ARRAY(uint32_t, count);
+  if (whole->factors) apart->factors = SPORE_NEW_ARRAY(SporeRegionFactors, elements);
+  if (!apart->rest || !apart->nodes || (whole->factors && !apart->factors)) return false;
+  if (whole->factors) memcpy(apart->factors, whole->factors, elements * sizeof *whole->factors);
+  for (size_t i = 0; i < count; i++) {
+    apart->nodes[i] = (uint32_t)i;
+    memcpy(apart->rest + 3 * i, whole->rest + 3 * (size_t)whole->nodes[i], 3 * sizeof(double));
+    if (i % per < 4) apart->mesh.tetrahedra[4 * (i / per) + i % per] = (uint32_t)i;
+  }
+  memcpy(apart->mesh.vertices, apart->rest, 3 * count * sizeof(double));
+  return true;
+}
+
 void spore_tetrahedron_nodes_clear(SporeTetrahedronNodes *nodes) {
   spore_tetrahedral_mesh_clear(&nodes->mesh);
   spore_free(nodes->rest);

@@ -22,6 +22,9 @@ bool spore_tetrahedra_check_mesh(const SporeTetrahedralMesh *mesh, SporeError *e
 bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTetrahedralMesh *mesh, bool middles,
                                     const SporeRegions *regions);
 void spore_tetrahedron_nodes_clear(SporeTetrahedronNodes *nodes);
+/* The same elements, each with nodes of its own: element t has the nodes per_element t and on. False: no memory; to be
+ * cleared all the same. */
+bool spore_tetrahedron_nodes_part(SporeTetrahedronNodes *apart, const SporeTetrahedronNodes *whole);
 static inline SporeRegionFactors spore_tetrahedron_factors(const SporeTetrahedronNodes *nodes, size_t tetrahedron) {
   return nodes->factors ? nodes->factors[tetrahedron] : (SporeRegionFactors){1, 1};
 }

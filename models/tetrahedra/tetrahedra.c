@@ -325,6 +325,28 @@ static void mend(SporeModel *model) {
   spore_tetrahedra_cut_mend(&body->cut, &body->tetrahedra, model->block_mass);
 }
 
+static SporeModel *apart(const SporeModel *model, const void *fields, uint32_t **nodes, size_t *count,
+                         SporeError *error) {
+  const Body *whole = (const Body *)model;
+  size_t total = whole->nodes.per_element * whole->nodes.mesh.tetrahedron_count;
+  Body *body = SPORE_NEW(Body);
+  uint32_t *from = SPORE_NEW_ARRAY(uint32_t, total);
+  if (body && from && spore_model_init(&body->base, model->type, total, false, error) &&
+      spore_tetrahedron_nodes_part(&body->nodes, &whole->nodes) &&
+      spore_tetrahedra_create(&body->tetrahedra, &body->nodes)) {
+    body->material = whole->material;
+    tune(body, fields);
+    memcpy(from, whole->nodes.nodes, total * sizeof *from);
+    *nodes = from;
+    *count = whole->nodes.mesh.tetrahedron_count;
+    return &body->base;
+  }
+  if (body) destroy(&body->base);
+  spore_free(from);
+  no_memory(error);
+  return NULL;
+}
+
 static const char *notice(const SporeModel *model, const double *q) {
   if (!((const Body *)model)->cut.full) return NULL;
   return _("scissors opened more of it than it has nodes in reserve for, so that some of the cut still holds; raise "
@@ -395,7 +417,7 @@ static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coa
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets, .destroy = destroy,         \
-  .place = place, .force = force, .potential = potential, .strain = strain, .map = map, .skin = skin,                  \
+  .place = place, .force = force, .potential = potential, .strain = strain, .map = map, .skin = skin, .apart = apart,  \
   .pattern = pattern, .jacobian = jacobian, .tangent = tangent, .retune = retune, .doubt = doubt, .mend = mend,        \
   .settle = settle, .cut = &cutting, .heat = &heating, .notice = notice
 

@@ -1248,6 +1248,30 @@ def render_shows_what_is_reached():
 
 
 @check
+def render_colours_what_is_strained():
+    """render --field colours soft bodies, says what the colours mean, and which bodies have no stress."""
+    if "render" not in FEATURES:
+        raise Skip("built without pictures")
+    picture, net = WORK / "field.png", SCENES / "table1-mass-spring.spore"
+
+    def colours(field, *more):
+        said = spore("render", net, "-o", picture, "--size", "64x64", *more, *(("--field", field) if field else ())).stdout
+        return said, picture.read_bytes()
+
+    own, strain = colours(None), colours("strain", "--field-end", "0.25")
+    assert "Green" not in own[0] and "Largest strain (Green): 0 to 25 % (fixed scale)" in strain[0], strain[0]
+    assert strain[1] != own[1]
+    stress = colours("stress")
+    assert re.search(r"Stress, von Mises \(Cauchy\): no stress in its law: \w+", stress[0]), stress[0]
+    assert stress[1] == own[1], "a net of springs has no stress"
+    answer = report("render", SCENES / "cut-ovary.spore", "-o", picture, "--size", "64x64", "--field", "velocity", "-t", "0.02")
+    assert answer["field"] == "velocity" and answer["field_end"] >= 0.001, answer
+    refuses("render", net, "-o", picture, "--field", "heat", says=["'heat'", "strain, stress or velocity"])
+    refuses("render", net, "-o", WORK / "field.webm", "-t", "1", "--field", "strain", says=["one scale", "--field-end"])
+    refuses("render", net, "-o", picture, "--field-end", "1", says=["--field as well"])
+
+
+@check
 def plan_says_why():
     """plan gives each stage with a reason and says what is left out."""
     answer = report("plan", soft_ball(), "--measure")

@@ -267,6 +267,103 @@ static void test_sphere_scale(void) {
   setting_close(&setting);
 }
 
+static SporeVec3 middle_of_points(const double *points, gsize count) {
+  SporeVec3 sum = {0, 0, 0};
+  for (gsize i = 0; i < count; i++) sum = spore_vec3_add(sum, spore_vec3_load(points + 3 * i));
+  return spore_vec3_scale(1.0 / (double)count, sum);
+}
+
+/* The ovary of the scene, as a snapshot would have it: deformed alike everywhere, in motion. */
+typedef struct Pulled {
+  SporeSnapshot snapshot;
+  double *q, *v;
+} Pulled;
+
+static Pulled pull(Setting *setting, SporeMat3 f, SporeVec3 velocity) {
+  const SporeWorld *world = setting->simulation->world;
+  Pulled pulled = {.snapshot = *spore_world_snapshot_acquire(setting->simulation->world)};
+  guint32 body = spore_world_find_body(world, "ovary_right");
+  const SporeModel *model = spore_world_lod_model(world, body, SPORE_LOD_FINE);
+  pulled.q = g_memdup2(pulled.snapshot.q, pulled.snapshot.q_count * sizeof(double));
+  pulled.v = g_memdup2(pulled.snapshot.v, pulled.snapshot.v_count * sizeof(double));
+  double *q = pulled.q + spore_world_q_offset(world, body), *v = pulled.v + spore_world_v_offset(world, body);
+  SporePose pose = spore_world_start_pose(world, body);
+  model->type->place(model, pose, velocity, spore_vec3(0, 0, 0), q, v);
+  SporeVec3 middle = middle_of_points(q, model->node_count);
+  for (gsize i = 0; i < model->node_count; i++) {
+    SporeVec3 off = spore_vec3_sub(spore_vec3_load(q + 3 * i), middle);
+    spore_vec3_store(q + 3 * i, spore_vec3_add(middle, spore_mat3_apply(f, off)));
+  }
+  pulled.snapshot.q = pulled.q;
+  pulled.snapshot.v = pulled.v;
+  return pulled;
+}
+
+/* Shows a field of the pulled body, and returns the end of its scale. hue: colour in the middle of the body; NULL: no
+ * picture is drawn. */
+static double show_field(Setting *setting, const SporeStageOptions *options, SporeMat3 f, SporeVec3 velocity,
+                         int hue[3]) {
+  Pulled pulled = pull(setting, f, velocity);
+  SporeCamera camera;
+  SporeTriangleMesh surface;
+  double x = 0, y = 0;
+  spore_stage_set_options(setting->stage, options);
+  spore_stage_update(setting->stage, &pulled.snapshot);
+  if (hue) {
+    g_assert_true(spore_stage_camera(setting->stage, NULL, 4.0 / 3, &camera, NULL));
+    g_assert_true(spore_stage_surface(setting->stage, id_of(setting, "ovary_right"), &surface));
+    SporeVec3 middle = middle_of_points(surface.vertices, surface.vertex_count);
+    g_assert_true(spore_camera_project(&camera, middle, 160, 120, &x, &y));
+    Picture picture = draw_picture(setting->bench.renderer, &camera, 160, 120, FALSE, FALSE);
+    picture_pixel(&picture, (int)x, (int)y, hue);
+    picture_clear(&picture);
+  }
+  g_free(pulled.q);
+  g_free(pulled.v);
+  return spore_stage_field_end(setting->stage);
+}
+
+static SporeMat3 stretched(double by) {
+  SporeMat3 turn = spore_quat_to_mat3(spore_quat_from_rotation_vector(spore_vec3(0.4, -1.1, 2.0)));
+  return spore_mat3_multiply(turn, spore_mat3_diagonal(by, 1, 1));
+}
+
+/* What is turned and moved has neither strain nor stress; what is stretched by a half has a strain of 62.5 %. */
+static void test_fields(void) {
+  Setting setting = setting_open(SPORE_SCENES "/plate7-steam.spore");
+  const SporeVec3 still = {0, 0, 0}, moving = {0.3, -0.4, 0};
+  int own[3], low[3], high[3];
+  SporeStageLegend legend;
+  setting_run(&setting, 0);
+  SporeStageOptions options = {.surfaces = TRUE};
+  g_assert_cmpfloat(show_field(&setting, &options, stretched(1), still, own), ==, 0);
+  g_assert_false(spore_stage_legend(setting.stage, &legend));
+  for (guint i = 0; i < setting.stage->bodies->len; i++)
+    g_assert_null(((SporeStageBody *)setting.stage->bodies->pdata[i])->shade); /* nothing is computed */
+  options.field = SPORE_FIELD_VELOCITY;
+  spore_stage_set_options(setting.stage, &options);
+  g_assert_true(spore_stage_legend(setting.stage, &legend));
+  g_assert_null(legend.high); /* until there is a state */
+  g_assert_nonnull(legend.without);
+  spore_stage_legend_clear(&legend);
+  g_assert_cmpfloat_with_epsilon(show_field(&setting, &options, stretched(1), moving, NULL), 0.5, 1e-12);
+  options.field = SPORE_FIELD_STRAIN;
+  g_assert_cmpfloat_with_epsilon(show_field(&setting, &options, stretched(1), moving, low), 0.01, 1e-12);
+  g_assert_cmpfloat_with_epsilon(show_field(&setting, &options, stretched(1.5), still, NULL), 1, 1e-12);
+  options.field_end = 0.625;
+  g_assert_cmpfloat(show_field(&setting, &options, stretched(1.5), still, high), ==, 0.625);
+  g_assert_cmpint(low[2], >, low[1]); /* violet, and yellow */
+  g_assert_cmpint(high[0], >, 3 * high[2]);
+  g_assert_cmpint(high[1], >, 3 * high[2]);
+  options = (SporeStageOptions){.surfaces = TRUE, .field = SPORE_FIELD_STRESS};
+  g_assert_cmpfloat(show_field(&setting, &options, stretched(1), moving, NULL), ==, 1);
+  g_assert_cmpfloat(show_field(&setting, &options, stretched(1.5), still, NULL), >, 1000);
+  options.field = SPORE_FIELD_NONE;
+  show_field(&setting, &options, stretched(1), still, low);
+  for (int i = 0; i < 3; i++) g_assert_cmpint(ABS(low[i] - own[i]), <=, 2); /* as it was */
+  setting_close(&setting);
+}
+
 static void count_found(gpointer data) { ++*(int *)data; }
 
 /* A stage that is looked at shows the spheres at once, and their errors when these are measured: once for each set. */
@@ -599,6 +696,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/held-places", test_held_places);
   g_test_add_func("/render/stage/held-within", test_held_within);
   g_test_add_func("/render/stage/sphere-scale", test_sphere_scale);
+  g_test_add_func("/render/stage/fields", test_fields);
   g_test_add_func("/render/stage/fit-aside", test_fit_aside);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);

@@ -2677,6 +2677,32 @@ def port_moved_in_the_view():
         ui.wait(lambda: blue(editor) < axis + 50, "the tint to go")
 
 
+@check
+def colours_show_the_state():
+    """Colours shows strain of what is pushed, with a legend that the button says, and can keep its scale; a body without stress is named; own colours take nothing."""
+    with start(SCENES / "table1-mass-spring.spore") as editor:
+        button = lambda: editor.find("toggle button", "^Colours$")
+        says = lambda words: lambda: re.search(words, button().get_description() or "")
+        editor.drawn_view()
+        keep_picture(editor, "colours-own")
+        editor.act("colours", "s", "strain")
+        ui.wait(says("known once the scene runs$"), "the legend to say what is missing")
+        editor.act("step")
+        ui.wait(says(r"^Largest strain \(Green\): 0 to [\d.]+ % \(scale follows the state\)$"), "the legend")
+        editor.act("keep-scale")
+        ui.wait(says(r"0 to [\d.]+ % \(fixed scale\)$"), "the scale to be fixed")
+        editor.drawn_view()
+        keep_picture(editor, "colours-strain")
+        editor.act("colours", "s", "stress")
+        ui.wait(says(r"^Stress, von Mises \(Cauchy\): no stress in its law: \w+"), "the body without stress")
+        assert not editor.state("keep-scale"), "another measure has another scale"
+        editor.act("colours", "s", "velocity")
+        ui.wait(says(r"^Speed: 0 to "), "speed")
+        keep_picture(editor, "colours-speed")
+        editor.act("colours", "s", "none")
+        ui.wait(says("^$"), "the legend to go")
+
+
 def red_end(editor):
     """The end of the gizmo's x axis on the screen; None: it is not drawn."""
     pixels, channels, stride, width, height = picture_of_view(editor, 0)

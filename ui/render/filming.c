@@ -76,10 +76,12 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
   if (done) reel = spore_reel_new(filming->file, spore_panes_width(panes), filming->height, filming->fps, error);
   guint64 count = count_pictures(filming);
   done = reel && shoot(filming, panes, reel, count, progress, error);
-  if (done)
+  if (done) {
     *filmed =
         (SporeFilmed){spore_panes_width(panes), filming->height, count,
                       is_picture(filming) ? 0 : (double)count / filming->fps, g_strdup(spore_panes_renderer(panes))};
+    filmed->coloured = spore_panes_legend(panes, &filmed->legend);
+  }
   spore_reel_free(reel);
   spore_panes_free(panes);
   return done;

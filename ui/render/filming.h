@@ -32,6 +32,8 @@ typedef struct SporeFilmed {
   guint64 pictures;
   double length_s;   /* of the film; 0: a single picture */
   char *gl_renderer; /* g_free */
+  gboolean coloured; /* whether there is a legend */
+  SporeStageLegend legend;
 } SporeFilmed;
 
 /* The time of the last input that moves the simulation, s; 0: nothing does. */

@@ -82,6 +82,10 @@ gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **er
   return TRUE;
 }
 
+gboolean spore_panes_legend(const SporePanes *panes, SporeStageLegend *legend) {
+  return spore_stage_legend(((const Pane *)panes->row->pdata[0])->stage, legend);
+}
+
 int spore_panes_width(const SporePanes *panes) { return panes->width * (int)panes->row->len; }
 const char *spore_panes_renderer(const SporePanes *panes) { return spore_offscreen_renderer(panes->offscreen); }
 

@@ -144,6 +144,8 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
 void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const SporeTextureImage *texture,
                        const float *places);
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
+/* values: NULL: it has none any more. */
+void spore_surface_value(SporeSurfaceGroup *surface, const float *values);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);
 /* Whether something is seen through it. */
 gboolean spore_surface_is_clear(const SporeSurfaceGroup *surface);

@@ -121,6 +121,11 @@ guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *v
   return add(renderer, &spore_surface_new(vertices, vertex_count, triangles, triangle_count, &plain, values)->base);
 }
 
+void spore_renderer_value_surface(SporeRenderer *renderer, guint surface, const float *values) {
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  if (drawable) spore_surface_value(drawable, values);
+}
+
 gboolean spore_renderer_fills_surface(SporeRenderer *renderer, guint surface) {
   const SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   return drawable && spore_surface_is_filled(drawable);

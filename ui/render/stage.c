@@ -115,11 +115,13 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   show_cuts(stage, snapshot);
   for (guint i = 0; snapshot->stain && i < stage->bodies->len; i++)
     spore_stage_body_stain(stage, stage->bodies->pdata[i], snapshot);
+  spore_stage_show_field(stage, snapshot);
   if (stage->marks_handle) spore_renderer_set_visible(stage->renderer, stage->marks_handle, snapshot->step == 0);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
 }
 
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options) {
+  if (options->field != stage->options.field) spore_stage_drop_field(stage);
   stage->options = *options;
   for (guint i = 0; i < stage->bodies->len; i++) {
     spore_stage_body_show(stage, stage->bodies->pdata[i]);

@@ -8,8 +8,20 @@
 
 typedef struct SporeStage SporeStage;
 
+/* What of a body's state colours its surface. */
+typedef enum SporeStageField {
+  SPORE_FIELD_NONE,
+  SPORE_FIELD_STRAIN,   /* largest principal Green's strain */
+  SPORE_FIELD_STRESS,   /* von Mises' stress of Cauchy's stress, by the body's own law, Pa */
+  SPORE_FIELD_VELOCITY, /* speed, m/s */
+  SPORE_FIELD_COUNT
+} SporeStageField;
+extern const char *const spore_stage_field_names[]; /* by field, then NULL; for options and actions */
+
 typedef struct SporeStageOptions {
   gboolean surfaces, spheres, tetrahedra, contacts;
+  SporeStageField field;
+  double field_end; /* at the end of the scale, which begins at 0; 0: the scale follows the state that is shown */
 } SporeStageOptions;
 
 /* What a generator or the Edit tool offers, shown in place of what the body has. Arrays are owned, in the body's axes
@@ -60,6 +72,21 @@ typedef struct SporeSphereScale {
   double share; /* the end as a share of each mesh's diagonal; 0: no such spheres are shown */
 } SporeSphereScale;
 SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
+/* What the colours of surfaces say; translated texts. */
+typedef struct SporeStageLegend {
+  char *label;   /* what is measured */
+  char *high;    /* at the end of the scale, with its unit; the scale begins at 0. NULL: no body has colours */
+  char *range;   /* whether the scale is fixed */
+  char *without; /* the soft bodies of which it is not known; NULL: there are none */
+  double end;    /* SI */
+} SporeStageLegend;
+/* FALSE: no field is shown. To be freed by spore_stage_legend_clear. */
+gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend);
+/* All of it in words, translated; g_free. */
+char *spore_stage_legend_text(const SporeStageLegend *legend);
+/* The end of the scale that is shown, SI; 0: none is. */
+double spore_stage_field_end(const SporeStage *stage);
+void spore_stage_legend_clear(SporeStageLegend *legend);
 /* Hides bodies, by their objects' ids as pointers. Borrowed until the next call; call again when the set has changed.
  * NULL: none. What is hidden is not picked. */
 void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden);

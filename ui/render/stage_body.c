@@ -111,6 +111,7 @@ static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObjec
   double *points = g_new(double, 3 * curve->count);
   for (gsize i = 0; i < curve->count; i++) memcpy(points + 3 * i, curve->points + 4 * i, 3 * sizeof(double));
   if (map_points(body, simulation, points, curve->count, &body->axis)) {
+    body->rest_axis = curve->points;
     body->tube = (SporeCurve){curve->count, g_memdup2(curve->points, 4 * curve->count * sizeof(double))};
     place_tube(stage, body);
   }
@@ -131,6 +132,8 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
   }
   body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
                                                     body->triangle_count, &body->style);
+  body->rest_surface = vertices;
+  body->rest_count = vertex_count;
   spore_stage_body_lay_texture(stage, body, vertices, body->places);
   if (simulation && body->world_body != SPORE_NO_BODY)
     spore_stage_body_keep_stain(stage, body, simulation->world, vertices);
@@ -271,6 +274,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
   spore_stage_body_free_stain(body);
+  spore_stage_body_free_shade(body);
   spore_free(body->surface_places);
   spore_free(body->centre_places);
   if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);

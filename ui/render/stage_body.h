@@ -13,6 +13,8 @@ typedef struct SporeStagePoints {
 
 /* How blood is seen on a surface: stage_stain.c. */
 typedef struct SporeStageStain SporeStageStain;
+/* Colours of a field: stage_field.c. */
+typedef struct SporeStageShade SporeStageShade;
 
 typedef struct SporeStageBody {
   guint32 object;     /* id */
@@ -42,7 +44,10 @@ typedef struct SporeStageBody {
   guint inside_handle;  /* of the faces that were inside */
   guint surface_handle; /* handles: 0 is none */
 
-  SporeStageStain *stain; /* of the surface; NULL: the body cannot be stained */
+  SporeStageStain *stain;                 /* of the surface; NULL: the body cannot be stained */
+  SporeStageShade *shade;                 /* while a field is shown; NULL: none */
+  const double *rest_surface, *rest_axis; /* of surface and tube as they were built: 3 and 4 a point; borrowed */
+  gsize rest_count;                       /* of rest_surface */
 
   SporeStagePoints axis; /* of the tube that is the surface */
   SporeCurve tube;       /* the axis as it is shown, with its radii; without points: there is none */
@@ -87,6 +92,7 @@ struct SporeStage {
   GArray *contacts;                     /* double: segments of the contacts shown */
   const SporeStageCandidate *candidate; /* NULL: none */
   guint candidate_handles[5];           /* spheres, the marked one, surface, edges, lines; 0: none */
+  double field_end;                     /* of the scale of colours that is shown; 0: none is */
   const SporeStageMarks *marks;         /* NULL: none */
   guint marks_handle;
 };
@@ -144,6 +150,11 @@ void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const Spore
  * vertices was made from; NULL: the vertices stay. Copied. */
 void spore_stage_body_stain_anew(SporeStageBody *body, const guint32 *twins);
 void spore_stage_body_free_stain(SporeStageBody *body);
+/* Colours the surfaces by the field of the options, as the snapshot has it; computes nothing where there is none. */
+void spore_stage_show_field(SporeStage *stage, const SporeSnapshot *snapshot);
+/* Gives the surfaces their own colours again, and frees what the field took. */
+void spore_stage_drop_field(SporeStage *stage);
+void spore_stage_body_free_shade(SporeStageBody *body);
 /* Removes the triangles that the cuts of the snapshot go through. */
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 

@@ -6,6 +6,8 @@
 #include "core/mesh/volume.h"
 #include "ui/render/passes.h"
 
+enum { VALUE = 3, STAIN = 4 }; /* attributes of the shader: a number at each vertex */
+
 /* Value noise on a lattice, 0..1, for the coarse pattern. It is computed once a vertex instead of once a pixel. */
 static double lattice(int x, int y, int z) {
   guint32 h = (guint32)x * 0x8da6b343u ^ (guint32)y * 0xd8163841u ^ (guint32)z * 0xcb1ab31fu;
@@ -105,11 +107,6 @@ static void describe_vertices(const SporeSurfaceGroup *surface) {
   glBindBuffer(GL_ARRAY_BUFFER, surface->rest);
   glEnableVertexAttribArray(2);
   glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, NULL);
-  if (surface->values) {
-    glBindBuffer(GL_ARRAY_BUFFER, surface->values);
-    glEnableVertexAttribArray(3);
-    glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, 0, NULL);
-  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface->indices);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(surface->triangle_count * 3 * sizeof(guint32)), surface->triangles,
                GL_STATIC_DRAW);
@@ -131,17 +128,13 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
   glGenBuffers(1, &surface->moving);
   glGenBuffers(1, &surface->rest);
   glGenBuffers(1, &surface->indices);
-  if (values) {
-    glGenBuffers(1, &surface->values);
-    glBindBuffer(GL_ARRAY_BUFFER, surface->values);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(vertex_count * sizeof *values), values, GL_STATIC_DRAW);
-  }
   spore_drawable_set_bounds(&surface->base, vertices, vertex_count, 3, FALSE, TRUE);
   surface->cell = pattern_cell(&surface->base);
   longest_axis(surface, vertices, surface->axis);
   upload_rest(surface, vertices);
   spore_surface_move(surface, vertices);
   describe_vertices(surface);
+  if (values) spore_surface_value(surface, values);
   return surface;
 }
 
@@ -221,19 +214,37 @@ void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices) {
   glUnmapBuffer(GL_ARRAY_BUFFER);
 }
 
-void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain) {
-  gboolean first = surface->stain == 0;
-  if (first) glGenBuffers(1, &surface->stain);
+/* Fills the buffer of a number at each vertex, which is made when it is first needed. */
+static void fill_attribute(const SporeSurfaceGroup *surface, GLuint *buffer, GLuint attribute, const float *numbers) {
+  gboolean first = *buffer == 0;
+  if (first) glGenBuffers(1, buffer);
   g_autofree float *drawn = surface->twins ? g_new(float, surface->drawn_count) : NULL;
-  for (gsize d = 0; drawn && d < surface->drawn_count; d++) drawn[d] = stain[surface->twins[d]];
-  glBindBuffer(GL_ARRAY_BUFFER, surface->stain);
-  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->drawn_count * sizeof *stain), drawn ? drawn : stain,
+  for (gsize d = 0; drawn && d < surface->drawn_count; d++) drawn[d] = numbers[surface->twins[d]];
+  glBindBuffer(GL_ARRAY_BUFFER, *buffer);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->drawn_count * sizeof *numbers), drawn ? drawn : numbers,
                GL_DYNAMIC_DRAW);
   if (!first) return;
   glBindVertexArray(surface->vertex_array);
-  glEnableVertexAttribArray(4);
-  glVertexAttribPointer(4, 1, GL_FLOAT, GL_FALSE, 0, NULL);
+  glEnableVertexAttribArray(attribute);
+  glVertexAttribPointer(attribute, 1, GL_FLOAT, GL_FALSE, 0, NULL);
   glBindVertexArray(0);
+}
+
+void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain) {
+  fill_attribute(surface, &surface->stain, STAIN, stain);
+}
+
+void spore_surface_value(SporeSurfaceGroup *surface, const float *values) {
+  if (values) {
+    fill_attribute(surface, &surface->values, VALUE, values);
+    return;
+  }
+  if (!surface->values) return;
+  glBindVertexArray(surface->vertex_array);
+  glDisableVertexAttribArray(VALUE);
+  glBindVertexArray(0);
+  glDeleteBuffers(1, &surface->values);
+  surface->values = 0;
 }
 
 static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *frame, const SporeProgram *program,
@@ -251,8 +262,8 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   else glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, style->wireframe && colours ? GL_LINE : GL_FILL);
   glBindVertexArray(surface->vertex_array);
-  if (!surface->values) glVertexAttrib1f(3, -1);
-  if (!surface->stain) glVertexAttrib1f(4, 0);
+  if (!surface->values) glVertexAttrib1f(VALUE, -1);
+  if (!surface->stain) glVertexAttrib1f(STAIN, 0);
   glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
 }
 

@@ -12,6 +12,7 @@
 #define LEGEND_WIDTH 200
 #define LEGEND_MARGIN 22
 #define LEGEND_HEIGHT 48
+#define LEGEND_LINE 18
 #define ARROW_PIXELS_A_NEWTON 40.0
 #define ARROW_LONGEST_PIXELS 160.0
 
@@ -58,14 +59,26 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
 }
 
+/* A legend: what is measured, the colours, the ends of their scale, and notes below. */
+typedef struct Legend {
+  const char *label, *low, *high; /* low, high: NULL: there are no ends */
+  const char *notes[2];           /* NULL: none */
+  gboolean scale;                 /* a bar of the scale's colours, or of the tint where `tint` */
+  gboolean tint;
+} Legend;
+
+static int count_notes(const Legend *legend) { return (legend->notes[0] != NULL) + (legend->notes[1] != NULL); }
+
 /* A dark box for a legend, at the lower right, above messages and beside the second view. FALSE: there is no room. */
-static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, double *left, double *top) {
+static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend,
+                             double *left, double *top) {
+  int notes = count_notes(legend) * LEGEND_LINE;
   if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
   height -= gtk_widget_get_allocated_height(self->messages);
-  *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT;
+  *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT - notes;
   if (width < LEGEND_WIDTH + 2 * LEGEND_MARGIN) return FALSE;
   cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
-  cairo_rectangle(cr, *left - 10, *top - 26, LEGEND_WIDTH + 20, LEGEND_HEIGHT + 14);
+  cairo_rectangle(cr, *left - 10, *top - 26, LEGEND_WIDTH + 20, LEGEND_HEIGHT + 14 + notes);
   cairo_fill(cr);
   return TRUE;
 }
@@ -85,45 +98,69 @@ static void write_legend(SporeViewport *self, cairo_t *cr, const char *text, dou
   pango_cairo_show_layout(cr, layout);
 }
 
-/* A bar of the scale's colours with its ends. */
-static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
-  double left, top;
-  if (!place_legend(self, cr, width, height, &left, &top)) return;
+static void draw_bar(cairo_t *cr, const Legend *legend, double left, double top) {
   for (int i = 0; i < LEGEND_WIDTH; i++) {
     double colour[3];
     spore_colour_scale((double)i / LEGEND_WIDTH, colour);
-    cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+    const double *shown = legend->tint ? spore_tint_colour : colour;
+    cairo_set_source_rgb(cr, shown[0], shown[1], shown[2]);
     cairo_rectangle(cr, left + i, top, 1, 10);
     cairo_fill(cr);
   }
-  write_legend(self, cr, label, left, top - 21, 0);
-  write_legend(self, cr, "0", left, top + 13, 0);
-  write_legend(self, cr, high, left, top + 13, 1);
 }
 
-/* The tint, and what it says. */
-static void draw_tint(SporeViewport *self, cairo_t *cr, int width, int height, const char *text) {
+static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend) {
   double left, top;
-  if (!place_legend(self, cr, width, height, &left, &top)) return;
-  cairo_set_source_rgb(cr, spore_tint_colour[0], spore_tint_colour[1], spore_tint_colour[2]);
-  cairo_rectangle(cr, left, top, LEGEND_WIDTH, 10);
-  cairo_fill(cr);
-  write_legend(self, cr, text, left, top - 21, 0);
-  write_legend(self, cr, _("at the start"), left, top + 13, 0);
+  if (!place_legend(self, cr, width, height, legend, &left, &top)) return;
+  if (legend->scale || legend->tint) draw_bar(cr, legend, left, top);
+  write_legend(self, cr, legend->label, left, top - 21, 0);
+  if (legend->low) write_legend(self, cr, legend->low, left, top + 13, 0);
+  if (legend->high) write_legend(self, cr, legend->high, left, top + 13, 1);
+  for (int i = 0; i < count_notes(legend); i++)
+    write_legend(self, cr, legend->notes[i], left, top + 13 + (i + 1) * LEGEND_LINE, 0);
 }
 
-/* Draws the legend of the candidate's colours, else of the colours of the bodies' spheres, else of the tint. */
+/* Whoever does not see the colours reads what they say at the button that shows them. */
+static void tell_field(SporeViewport *self, const SporeStageLegend *legend) {
+  AtkObject *button = gtk_widget_get_accessible(self->colours_button);
+  g_autofree char *text = legend ? spore_stage_legend_text(legend) : g_strdup("");
+  if (g_strcmp0(atk_object_get_description(button), text) != 0) atk_object_set_description(button, text);
+}
+
+static gboolean draw_field_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeStageLegend field;
+  if (!self->stage || !spore_stage_legend(self->stage, &field)) {
+    tell_field(self, NULL);
+    return FALSE;
+  }
+  Legend legend = {.label = field.label, .high = field.high, .scale = field.high != NULL};
+  if (field.high) legend.low = "0", legend.notes[0] = field.range;
+  legend.notes[field.high ? 1 : 0] = field.without;
+  draw_legend(self, cr, width, height, &legend);
+  tell_field(self, &field);
+  spore_stage_legend_clear(&field);
+  return TRUE;
+}
+
+/* Draws the legend of the candidate's colours, else of the field's, else of the colours of the bodies' spheres, else of
+ * the tint. */
 static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
   SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
+  Legend legend = {.low = "0", .scale = TRUE};
   if (self->legend) {
-    draw_legend(self, cr, width, height, self->legend, self->legend_high);
+    legend.label = self->legend, legend.high = self->legend_high;
+    draw_legend(self, cr, width, height, &legend);
+  } else if (draw_field_legend(self, cr, width, height)) {
+    return;
   } else if (scale.share > 0) {
     g_autofree char *high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
                                            : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
-    draw_legend(self, cr, width, height, _("Depth error"), high);
+    legend.label = _("Depth error"), legend.high = high;
+    draw_legend(self, cr, width, height, &legend);
   } else {
     g_autofree char *tint = spore_viewport_reach_legend(self);
-    if (tint) draw_tint(self, cr, width, height, tint);
+    legend = (Legend){.label = tint, .low = _("at the start"), .tint = TRUE};
+    if (tint) draw_legend(self, cr, width, height, &legend);
   }
 }
 

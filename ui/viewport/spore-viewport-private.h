@@ -42,9 +42,9 @@ struct _SporeViewport {
   GtkRequisition pictures_size; /* pixels, while they are shown */
   GtkWidget *pictures;          /* of templates; NULL: none are set */
   GtkWidget *area, *foot, *template_button, *recent_button, *messages, *hud, *tools, *tool_row, *select_tool,
-      *lead_tool, *edit_tool, *look_row, *overlays, *measure_list, *welcome, *beginnings, *failure, *link_button,
-      *instrument_button, *led_button, *measure_button, *cut_slider, *notice, *foot_row, *second, *second_area,
-      *second_name, *large_name;
+      *lead_tool, *edit_tool, *look_row, *overlays, *colours_button, *measure_list, *welcome, *beginnings, *failure,
+      *link_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice, *foot_row, *second,
+      *second_area, *second_name, *large_name;
 
   SporeEditorDocument *document;
   SporePlayer *player;

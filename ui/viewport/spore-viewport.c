@@ -286,9 +286,12 @@ void spore_viewport_set_gizmo(SporeViewport *self, SporeGizmo gizmo) {
   gtk_widget_queue_draw(self->area);
 }
 
-void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options) {
+void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options, gboolean keep_scale) {
+  double end = self->options.field_end;
+  if (keep_scale && !end && self->stage) end = spore_stage_field_end(self->stage);
   self->options = *options;
-  if (self->stage) spore_stage_set_options(self->stage, options);
+  self->options.field_end = keep_scale ? end : 0;
+  if (self->stage) spore_stage_set_options(self->stage, &self->options);
   update_stage(self);
 }
 
@@ -362,6 +365,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, lead_tool);
   gtk_widget_class_bind_template_child(widget, SporeViewport, edit_tool);
   gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, colours_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_list);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);

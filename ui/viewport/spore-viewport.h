@@ -101,7 +101,8 @@ void spore_viewport_set_fluid_menu(SporeViewport *self, GMenuModel *kinds);
 void spore_viewport_set_instrument_menu(SporeViewport *self, GMenuModel *kinds, GMenuModel *led);
 /* Lays messages over the foot of the view, below the figures: the picture and its tools stay where they are. */
 void spore_viewport_set_messages(SporeViewport *self, GtkWidget *messages);
-void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
+/* keep_scale: the end of the scale of colours stays where it is; that of `options` is not read. */
+void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options, gboolean keep_scale);
 /* Shows all ports that instruments pass through with what they reach, and tints what none of them reaches; with a port
  * or an instrument selected, what that does not reach. */
 void spore_viewport_set_reach(SporeViewport *self, gboolean shown);
