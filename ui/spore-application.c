@@ -48,6 +48,7 @@ static const struct {
     {"app.preferences", {"<Control>comma"}},
     {"win.turn-optic(10.0)", {"<Control>bracketright"}},
     {"win.turn-optic(-10.0)", {"<Control>bracketleft"}},
+    {"win.wipe-lens", {"<Control>backslash"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},
 };

@@ -5,6 +5,7 @@
 #include "core/author/instrument_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/region_edits.h"
+#include "core/scene/camera_sight.h"
 #include "ui/spore-window-private.h"
 
 #define STUDY_HEIGHT 350 /* pixels of the bottom, for a work-precision plot */
@@ -314,6 +315,15 @@ static void act_turn_optic(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
+static void act_wipe_lens(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeSession *session = spore_player_get_session(self->player);
+  const SporeObject *camera = spore_viewport_scene_camera(SPORE_VIEWPORT(self->viewport));
+  if (!session || !camera) return;
+  const SporeCommand wipe = {.kind = SPORE_COMMAND_WIPE, .number = spore_camera_number(document_of(self), camera)};
+  spore_session_post(session, &wipe);
+}
+
 static void change_cut(GSimpleAction *action, GVariant *state, gpointer data) {
   spore_viewport_set_cut(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(state, NULL));
   g_simple_action_set_state(action, state);
@@ -441,6 +451,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"swap-views", act_swap_views},
       {"second-view", NULL, NULL, "false", change_second_view},
       {"turn-optic", act_turn_optic, "d"},
+      {"wipe-lens", act_wipe_lens},
       {"cut", NULL, "s", "'none'", change_cut},
       {"cut-other-side", NULL, NULL, "false", change_cut_side},
       {"measure", act_measure, "s"},

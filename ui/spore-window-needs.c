@@ -117,6 +117,7 @@ static const struct {
     {"swap-views", CAMERA | BODIES},
     {"second-view", CAMERA | BODIES},
     {"turn-optic", CAMERA},
+    {"wipe-lens", SESSION | CAMERA},
     {"pick-back", PICKING},
     {"pick-done", DRAFT},
     {"show-guide", EXERCISE},

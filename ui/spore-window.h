@@ -49,6 +49,7 @@
  *               hide-or-show [s path of a body], show-all, measure [s "distance", "angle" or "volume"],
  *               swap-views (to the scene's camera and back), second-view (state: the other one, too),
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
+ *               wipe-lens (of the same),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
  *   others      search (for any of these), open-menu, report [s message]; of the application:
  *               preferences, reset-preferences, look, language, turning, wheel, pictures, keeping [s choice,

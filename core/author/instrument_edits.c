@@ -23,8 +23,9 @@
 #define THREAD_POINTS 25
 #define THREAD_RADIUS 0.0002 /* m */
 #define FIELD_OF_VIEW "0.9"
-#define DISTORTION                                                                                                     \
-  "0.2" /* measured of rigid endoscopes, Laryngoscope 125, 2015, p. 561: corners at 80 % of their distance */
+#define LENS "0.004"     /* m: of a shaft of 10 mm */
+#define HAZE "8"         /* s: of a cavity that is insufflated on */
+#define DISTORTION "0.2" /* measured of rigid endoscopes: corners at 80 % (Laryngoscope 125, 2015, p. 561) */
 #define METAL "0.80 0.80 0.82"
 #define THREAD_COLOUR "0.25 0.30 0.62"
 
@@ -281,7 +282,8 @@ static gboolean add_camera(const Addition *addition, SporeObject *body, GError *
          spore_edit_set_vector(addition->document, camera, "position", addition->pose.position, error) &&
          spore_edit_set_vector(addition->document, camera, "target", ahead, error) &&
          set_look(addition, camera, ahead, error) && set(addition, camera, "field_of_view", FIELD_OF_VIEW, error) &&
-         set(addition, camera, "distortion", DISTORTION, error);
+         set(addition, camera, "distortion", DISTORTION, error) && set(addition, camera, "lens", LENS, error) &&
+         set(addition, camera, "haze", HAZE, error);
 }
 
 static gboolean add_port(const Addition *addition, SporeObject *body, SporeVec3 entry, GError **error) {

@@ -207,7 +207,12 @@ TABLE(static, tool, SporeToolDescription, TOOL)
   X(T, fields, FIELDS, .parameters = &spore_emitter_parameters)
 TABLE(static, emitter, SporeEmitterDescription, EMITTER)
 
-#define EYE(X, T) X(T, body, BODY) X(T, point, REALS, DOUBLES(SporeVec3))
+#define EYE(X, T)                                                                                                      \
+  X(T, body, BODY)                                                                                                     \
+  X(T, point, REALS, DOUBLES(SporeVec3))                                                                               \
+  X(T, sight, REALS, DOUBLES(SporeVec3))                                                                               \
+  X(T, lens, REAL)                                                                                                     \
+  X(T, haze_s, REAL)
 TABLE(static, eye, SporeEyeDescription, EYE)
 
 #define WORLD(X, T)                                                                                                    \

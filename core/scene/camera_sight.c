@@ -2,6 +2,7 @@
 #include "core/scene/camera_sight.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Right and up of a level picture along the axis: up is the scene's y as far as the axis leaves that open. */
 static void level(SporeVec3 back, SporeVec3 *right, SporeVec3 *up) {
@@ -26,4 +27,12 @@ double spore_camera_turn_to(SporeVec3 position, SporeVec3 target, SporeVec3 plac
   if (!(spore_vec3_length(back) > 0)) return 0;
   level(back, &right, &up);
   return atan2(spore_vec3_dot(aside, right), -spore_vec3_dot(aside, up));
+}
+
+guint spore_camera_number(SporeDocument *document, const SporeObject *camera) {
+  const SporeObject *tools = spore_document_section(document, "tools");
+  guint number = 0;
+  for (guint i = 0; i < spore_object_child_count(tools) && spore_object_child(tools, i) != camera; i++)
+    number += strcmp(spore_object_type(spore_object_child(tools, i))->element, "camera") == 0;
+  return number;
 }

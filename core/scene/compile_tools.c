@@ -1,6 +1,7 @@
 /* Describes tools and effects of a document to the world. */
 #include <string.h>
 
+#include "core/scene/camera_sight.h"
 #include "core/scene/compile_private.h"
 
 /* The bodies that the type's parameters refer to, in their order. */
@@ -20,7 +21,11 @@ static gboolean find_bodies(SporeCompiler *compiler, const SporeObject *object, 
 static gboolean add_eye(SporeCompiler *compiler, const SporeObject *camera) {
   SporeCameraFields fields;
   spore_object_fields(camera, &fields);
-  SporeEyeDescription eye = {.point = spore_vec3_load(fields.position)};
+  SporeVec3 point = spore_vec3_load(fields.position), along = spore_vec3_sub(spore_camera_sight(&fields), point);
+  SporeEyeDescription eye = {.point = point,
+                             .sight = spore_vec3_normalise(along, spore_vec3(0, 0, -1)),
+                             .lens = fields.lens,
+                             .haze_s = fields.haze};
   if (!spore_compiler_body_index(compiler, camera, "body", &eye.body)) return FALSE;
   g_array_append_val(compiler->eyes, eye);
   return TRUE;

@@ -84,7 +84,7 @@ typedef struct SporeSeamFields {
 
 typedef struct SporeCameraFields {
   const char *name, *body;
-  double position[3], target[3], angle, turn, field_of_view, distortion;
+  double position[3], target[3], angle, turn, field_of_view, distortion, lens, haze;
 } SporeCameraFields;
 
 typedef struct SporeProbeFields {

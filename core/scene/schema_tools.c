@@ -66,6 +66,25 @@ static const SporeParameter camera_parameters[] = {
          N_("How the lens bends straight lines outward (barrel): how much nearer to the middle it draws a corner of "
             "the picture than at the scale of the middle, as a part of the distance. 0: not at all; rigid endoscopes: "
             "0.2 (Laryngoscope 125, 2015, p. 561).")},
+    {.name = "lens",
+     .type = SPORE_REAL,
+     .unit = "m",
+     .minimum = 0,
+     .maximum = 0.05,
+     FIELD(SporeCameraFields, lens),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc =
+         N_("Radius of its front lens, which blood and water wet until it is wiped: by the first button of its device, "
+            "or when it is drawn out of its port. 0: it stays clean.")},
+    {.name = "haze",
+     .type = SPORE_REAL,
+     .unit = "s",
+     .minimum = 0,
+     .maximum = 1000,
+     FIELD(SporeCameraFields, haze),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc =
+         N_("How long smoke hazes the view after it was made, until a third of the haze is left. 0: there is none.")},
 };
 
 static const SporeParameter probe_parameters[] = {

@@ -35,6 +35,7 @@ static void carry_stains(SporeWorld *to, const SporeWorld *from) {
 void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from) {
   size_t count = spore_world_body_count(to->world);
   carry_stains(to->world, from->world);
+  spore_world_carry_lenses(to->world, from->world);
   for (guint32 i = 0; i < count; i++) {
     SporeRole role = spore_world_body_role(to->world, i);
     guint32 old = spore_world_find_body(from->world, spore_world_body_name(to->world, i));

@@ -1,5 +1,6 @@
 /* Commands from another thread: a ring with one writer and one reader. */
 #include <assert.h>
+#include <math.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
@@ -83,6 +84,10 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     set_gravity(world, command->vector);
     return;
   }
+  if (command->kind == SPORE_COMMAND_WIPE) {
+    spore_world_wipe_lens(world, (size_t)fmax(command->number, 0));
+    return;
+  }
   if (command->body >= world->body_count) return;
   SporeBody *body = &world->bodies[command->body];
   /* Sleeping bodies may lie on a body that physics does not move. */
@@ -112,6 +117,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     spore_world_set_effect(world, command->body, command->effect);
     break;
   case SPORE_COMMAND_GRAVITY:
+  case SPORE_COMMAND_WIPE:
     break;
   }
 }

@@ -343,7 +343,9 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       create_bodies(world, description, error) && create_spheres(world, description, error) && go_on(world) &&
       spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
       spore_world_create_particles(world, description, error) && spore_world_create_effects(world, error) &&
-      (spore_world_create_stains(world, description) || no_memory(error)) && go_on(world) &&
+      ((spore_world_create_stains(world, description) && spore_world_create_lenses(world, description)) ||
+       no_memory(error)) &&
+      go_on(world) &&
       ((spore_world_create_refinement(world) && spore_world_create_coupled_rooms(world) && prepare_sweeps(world)) ||
        no_memory(error)) &&
       spore_world_create_factors(world, error) && go_on(world) && spore_world_create_lod(world, description, error) &&

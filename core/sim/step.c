@@ -162,6 +162,9 @@ static const SporeStageType stages[] = {
      N_("bodies that move have spheres to touch"), N_("no two bodies can touch"), 0.3, 0.004},
     {"stain", spore_world_may_stain, spore_world_stain, drops, /**/
      N_("what drops lie on takes on their colour"), N_("no fluid stains or washes what it touches"), 0.05, 0.002},
+    {"lens", spore_world_may_wet_lens, spore_world_wet_lenses, drops, /**/
+     N_("drops wet the lens of an endoscope, or smoke hazes its view"),
+     N_("nothing wets a lens, and no smoke hazes a view"), 0.05, 0.002},
     {"wake", may_sleep, spore_world_wake_touched, sleeping_bodies, /**/
      N_("bodies at rest sleep until something that moves touches them"),
      N_("bodies never sleep: sleep_speed is 0, or none moves by physics"), 0.05, 0},

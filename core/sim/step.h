@@ -6,7 +6,7 @@
 
 #include "core/sim/world.h"
 
-#define SPORE_STAGE_COUNT 28
+#define SPORE_STAGE_COUNT 29
 #define SPORE_LEFT_OUT_MAXIMUM 10
 #define SPORE_COMMAND_CAPACITY 1024
 

@@ -37,6 +37,7 @@ void spore_world_free(SporeWorld *world) {
   spore_contacts_clear(&world->contact);
   spore_state_clear(&world->state);
   spore_world_clear_stains(world);
+  spore_world_clear_lenses(world);
   spore_commands_clear(&world->commands);
   for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
   spore_free(world->levels.eyes);
@@ -86,6 +87,7 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
   spore_world_reset_effects(world);
   spore_world_reset_stains(world);
+  spore_world_reset_lenses(world);
   spore_monitor_reset(&world->state.monitor);
   spore_world_reset_unsolved(world);
   spore_world_make_plan(world);

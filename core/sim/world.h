@@ -177,6 +177,17 @@ typedef struct SporeStainPlaces {
 SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body);
 /* Mean stain of these places now, 0..1. A stain is seen and changes nothing else: state and hashes are without it. */
 double spore_world_stained(const SporeWorld *world, uint32_t body);
+/* What is on the lens of an eye, and before it; each 0..1. A lens is seen and changes nothing else, as a stain. */
+typedef struct SporeLensState {
+  float blood; /* share of the front that blood covers */
+  float water; /* the same of water */
+  float haze;  /* of the light from what the eye looks at, the share that smoke takes away */
+} SporeLensState;
+/* Number of lenses: one of each eye, in the order of the description. */
+size_t spore_world_lens_count(const SporeWorld *world);
+SporeLensState spore_world_lens(const SporeWorld *world, size_t lens);
+/* Gives the lenses of `to` what is on those of `from`, where there are as many. */
+void spore_world_carry_lenses(SporeWorld *to, const SporeWorld *from);
 /* Gives a body of `to` the stain that body `old` of `from` has, where the places are the same. */
 void spore_world_carry_stain(SporeWorld *to, uint32_t body, const SporeWorld *from, uint32_t old);
 /* Whether spheres of the body collide with each other, as its contact law says now. */
@@ -552,6 +563,8 @@ typedef struct SporeSnapshot {
   uint64_t stained;   /* changes whenever a stain changes; 0: nothing was ever stained */
   size_t stain_count;
   float *stain; /* stain_count, 0..1: how much of a fluid's colour each place has, see spore_world_stain_places */
+  size_t lens_count;
+  SporeLensState *lenses; /* lens_count */
   uint64_t message_count; /* as in SporeMonitor */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
   double step_us; /* time that the step took, us of the clock */
@@ -580,6 +593,7 @@ typedef enum SporeCommandKind {
   SPORE_COMMAND_CONTACT, /* sets the contact law of `body` to `contact` */
   SPORE_COMMAND_THAW,    /* lets a frozen body move again */
   SPORE_COMMAND_LOD,     /* changes `body` to `level`; where that is refused, the monitor says why */
+  SPORE_COMMAND_WIPE,    /* wipes the lens whose number is `number` */
   SPORE_COMMAND_EFFECT /* moves `body` by an effect where `effect` is true, else by physics; where that is refused, the
                           monitor says why */
 } SporeCommandKind;

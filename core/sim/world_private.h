@@ -6,6 +6,7 @@
 #include "core/haptic/guard.h"
 #include "core/sim/contact/contact.h"
 #include "core/sim/effect/effect.h"
+#include "core/sim/effect/lens.h"
 #include "core/sim/effect/stain.h"
 #include "core/sim/link/link.h"
 #include "core/sim/lod/lod.h"
@@ -78,6 +79,7 @@ struct SporeWorld {
   SporeTopology topology;
   SporeToolSystem tools;
   SporeStains stains;
+  SporeLenses lenses;
 };
 
 /* Whether physics moves the body; `body` may be SPORE_NO_BODY. */

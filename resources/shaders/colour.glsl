@@ -18,12 +18,19 @@ float vignette(vec2 pixel) {
 // Below one step of 8 bits: breaks up the bands of dark gradients.
 float dither(vec2 pixel) { return fract(52.98 * fract(dot(pixel, vec2(0.0671, 0.00584)))) - 0.5; }
 
+// Smoke between the lens and what is seen there, lit by the lamp.
+vec3 behind_haze(vec3 colour) {
+  if (lens.w == 0.0) return colour;
+  float depth = projection[3][2] / (2.0 * gl_FragCoord.z - 1.0 + projection[2][2]);
+  return mix(vec3(0.26, 0.235, 0.225), colour, pow(1.0 - lens.w, depth / light.w));
+}
+
 // What a pass writes. Full quality keeps linear light for the composite pass; else it ends here.
 vec4 finish(vec3 colour, float alpha) {
 #if QUALITY
-  return vec4(colour, alpha);
+  return vec4(behind_haze(colour), alpha);
 #else
-  return vec4(tone_map(colour * vignette(gl_FragCoord.xy)), alpha);
+  return vec4(tone_map(behind_haze(colour) * vignette(gl_FragCoord.xy)), alpha);
 #endif
 }
 

@@ -111,6 +111,18 @@ static void test_smoke_full(void) {
   draw_and_check(&bench, "smoke_full", TRUE, FALSE);
 }
 
+/* The lens of an endoscope that dipped into blood and water, with smoke before it. */
+static void test_lens(void) {
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  SporeCamera camera = oblique_camera();
+  camera.distortion = 0.2, camera.blood = 0.35, camera.water = 0.45, camera.haze = 0.3;
+  Picture picture = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, TRUE, FALSE);
+  check_golden("lens", &picture);
+  picture_clear(&picture);
+  bench_close(&bench);
+}
+
 static void test_shadow_between_bodies(void) {
   static const float pale[3] = {0.55f, 0.40f, 0.33f};
   Bench bench = bench_open();
@@ -128,6 +140,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/golden/overlays", test_overlays);
   g_test_add_func("/render/golden/smoke-fast", test_smoke_fast);
   g_test_add_func("/render/golden/smoke-full", test_smoke_full);
+  g_test_add_func("/render/golden/lens", test_lens);
   g_test_add_func("/render/golden/shadow", test_shadow_between_bodies);
   return g_test_run();
 }

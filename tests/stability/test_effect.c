@@ -630,6 +630,95 @@ static void test_irrigation_washes(void) {
   g_assert_cmphex(hash[0], !=, hash[2]);
 }
 
+/* An endoscope that stands in the blood, presses its first button from .3 s to .34 s, and is drawn up from .6 s on. */
+#define DRAWN_S 0.6
+static bool dip(SporeDevice *device, double time_s, const SporeDeviceCommand *command, SporeDeviceState *state) {
+  (void)device;
+  (void)command;
+  *state = (SporeDeviceState){.position = {0, 0.004, 0}, .orientation = {1, 0, 0, 0}};
+  state->position[1] += 0.3 * fmin(fmax(time_s - DRAWN_S, 0), 0.2);
+  state->buttons = time_s > 0.299 && time_s < 0.339;
+  return true;
+}
+
+static Rig *dipped(SporeEyeDescription *eyes, size_t count, bool port) {
+  Rig *rig = pour(4e-3, NULL);
+  rig_active(rig, "scope", rig_sphere(rig, 0.0005))->pose.position = spore_vec3(0, 0.004, 0);
+  for (size_t i = 0; i < count; i++)
+    eyes[i] =
+        (SporeEyeDescription){.body = 2, .point = {0.2 * (double)i, 0.003, 0}, .sight = {0, -1, 0}, .lens = 0.004};
+  rig->description.eyes = eyes;
+  rig->description.eye_count = count;
+  if (port) rig_link(rig, "port", &spore_link_port, 2, SPORE_NO_BODY, spore_vec3(0, 0.03, 0));
+  return rig;
+}
+
+/* Blood wets a lens that it touches and no other; a button and a command wipe the lens, and so does an assistant once
+ * it is out of its port. Nothing else knows of it. */
+static void test_lens_is_wetted(void) {
+  static const SporeDeviceType type = {.name = "dip", .exchange = dip};
+  SporeDevice device = {&type};
+  uint64_t hash[3];
+  double wet[3];
+  for (int c = 0; c < 3; c++) { /* no eye; with a port; without one */
+    SporeEyeDescription eyes[2];
+    Rig *rig = dipped(eyes, c == 0 ? 0 : 2, c < 2);
+    SporeWorld *world = rig_build(rig);
+    spore_world_set_device(world, 2, &device);
+    rig_run(world, 74);
+    if (c > 0) {
+      g_assert_cmpfloat((double)spore_world_lens(world, 0).blood, >, 0.3);
+      g_assert_cmpfloat((double)spore_world_lens(world, 1).blood, ==, 0);
+    }
+    rig_run(world, 9);
+    if (c > 0) g_assert_cmpfloat((double)spore_world_lens(world, 0).blood, ==, 0);
+    rig_run(world, 65);
+    if (c > 0) g_assert_cmpfloat((double)spore_world_lens(world, 0).blood, >, 0.3);
+    rig_run(world, 60);
+    hash[c] = spore_world_hash(world);
+    if (c > 0) wet[c] = (double)spore_world_snapshot_acquire(world)->lenses[0].blood;
+    if (c == 2) {
+      const SporeCommand wipe = {.kind = SPORE_COMMAND_WIPE, .number = 0},
+                         none = {.kind = SPORE_COMMAND_WIPE, .number = 9};
+      g_assert_true(spore_world_post(world, &none));
+      rig_run(world, 1);
+      g_assert_cmpfloat((double)spore_world_lens(world, 0).blood, ==, wet[2]);
+      g_assert_true(spore_world_post(world, &wipe));
+      rig_run(world, 1);
+      g_assert_cmpfloat((double)spore_world_lens(world, 0).blood, ==, 0);
+    }
+    rig_free(rig);
+  }
+  g_assert_cmpfloat(wet[1], ==, 0);
+  g_assert_cmpfloat(wet[2], >, 0.3);
+  g_assert_cmphex(hash[0], ==, hash[1]);
+}
+
+/* Smoke hazes the view, and the haze fades once the smoke is gone; an eye without haze sees none. */
+static void test_smoke_hazes(void) {
+  SporeEyeDescription eyes[2] = {{.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .haze_s = 0.5},
+                                 {.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .lens = 0.004}};
+  Rig *rig = sky(0, 250, 4e-3, true);
+  rig->description.eyes = eyes;
+  rig->description.eye_count = 2;
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 250);
+  double thick = (double)spore_world_lens(world, 0).haze;
+  size_t count = spore_world_body_model(world, 0)->node_count;
+  g_autofree double *q = g_memdup2(spore_world_q(world, 0), 4 * count * sizeof *q), *v = g_new0(double, 3 * count);
+  for (size_t i = 0; i < count; i++) q[3 * i] = 2 * SPORE_PARTICLES_OUT_M;
+  spore_world_set_state(world, 0, q, v);
+  rig_run(world, 125);
+  double thin = (double)spore_world_lens(world, 0).haze;
+  g_test_message("haze %.3f, and %.3f half a second later", thick, thin);
+  g_assert_cmpfloat(thick, >, 0.01);
+  g_assert_cmpfloat(fabs(thin / thick - exp(-1)), <, 0.03);
+  g_assert_cmpfloat((double)spore_world_lens(world, 1).haze, ==, 0);
+  spore_world_reset(world);
+  g_assert_cmpfloat((double)spore_world_lens(world, 0).haze, ==, 0);
+  rig_free(rig);
+}
+
 static void test_dent(void) {
   const SporeDent dent = {{0, 0, 0}, {0, -1e-3, 0}, 2e-3};
   SporeVec3 middle = spore_dents_at(&dent, 1, dent.at);
@@ -657,6 +746,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/sleeping-pool-is-sucked", test_sleeping_pool_is_sucked);
   g_test_add_func("/stability/effect/blood-stains", test_blood_stains);
   g_test_add_func("/stability/effect/water-washes", test_water_washes);
+  g_test_add_func("/stability/effect/lens-is-wetted", test_lens_is_wetted);
+  g_test_add_func("/stability/effect/smoke-hazes", test_smoke_hazes);
   g_test_add_func("/stability/effect/irrigation-washes", test_irrigation_washes);
   g_test_add_func("/stability/effect/dent", test_dent);
   return g_test_run();

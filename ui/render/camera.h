@@ -15,6 +15,8 @@ typedef struct SporeCamera {
   /* Of the lens, 0 to 0.6: how much nearer to the middle a corner of the picture is drawn than a lens
    * of the middle's scale draws it, as a part of its distance (barrel). 0: straight lines stay straight. */
   double distortion;
+  /* Shares 0..1 of the front that blood and water cover, and of the light from the target that haze takes away. */
+  double blood, water, haze;
 } SporeCamera;
 /* Moves the camera so that the box fits into a picture of that aspect; keeps the direction. */
 void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);

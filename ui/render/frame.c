@@ -113,7 +113,8 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const Spo
   block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
   block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
-  block->lens[0] = (float)camera->distortion;
+  block->lens[0] = (float)camera->distortion, block->lens[1] = (float)camera->blood;
+  block->lens[2] = (float)camera->water, block->lens[3] = (float)camera->haze;
   set_clip(frame, &options->clip, right, up, forward);
   set_cones(frame, canvas, right, up, forward);
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;

@@ -320,8 +320,9 @@ gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera
   set_state();
   if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
     return FALSE;
-  gboolean drawn = camera->distortion > 0 ? draw_through_lens(renderer, camera, options, error)
-                                          : draw_straight(renderer, camera, options, &renderer->screen, error);
+  gboolean lens = camera->distortion > 0 || camera->blood > 0 || camera->water > 0;
+  gboolean drawn = lens ? draw_through_lens(renderer, camera, options, error)
+                        : draw_straight(renderer, camera, options, &renderer->screen, error);
   if (drawn) renderer->begun = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   return drawn;
 }

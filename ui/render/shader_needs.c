@@ -25,12 +25,13 @@ static SporeProgramKind drawn_by(const SporeObject *body, const SporeModel *mode
   return names(body, "collision", "spheres") || own ? SPORE_PROGRAM_SPHERE : SPORE_PROGRAM_COUNT;
 }
 
-/* Whether a camera of the scene looks through a lens that bends lines. */
+/* Whether a camera of the scene looks through a lens that bends lines, or gets wet. */
 static gboolean has_lens(SporeDocument *document) {
   const SporeObject *tools = spore_document_section(document, "tools");
   for (guint i = 0; i < spore_object_child_count(tools); i++) {
     const SporeObject *tool = spore_object_child(tools, i);
-    if (g_str_equal(spore_object_type(tool)->element, "camera") && spore_object_number(tool, "distortion") > 0)
+    if (g_str_equal(spore_object_type(tool)->element, "camera") &&
+        (spore_object_number(tool, "distortion") > 0 || spore_object_number(tool, "lens") > 0))
       return TRUE;
   }
   return FALSE;

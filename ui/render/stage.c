@@ -13,6 +13,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->textures = spore_stage_textures_new();
   stage->fits = spore_stage_fits_new();
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
+  stage->lenses = g_array_new(FALSE, FALSE, sizeof(SporeLensState));
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
   stage->selection = g_hash_table_new(NULL, NULL);
   return stage;
@@ -43,6 +44,7 @@ void spore_stage_free(SporeStage *stage) {
   spore_stage_fits_free(stage->fits);
   g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
+  g_array_free(stage->lenses, TRUE);
   g_array_free(stage->port_lines, TRUE);
   g_free(stage);
 }
@@ -52,6 +54,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   clear(stage);
   stage->simulation = simulation;
   stage->cut_count = 0;
+  g_array_set_size(stage->lenses, 0);
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
@@ -113,6 +116,8 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     spore_stage_body_place(stage, body);
   }
   show_cuts(stage, snapshot);
+  g_array_set_size(stage->lenses, 0);
+  if (snapshot->lens_count) g_array_append_vals(stage->lenses, snapshot->lenses, (guint)snapshot->lens_count);
   for (guint i = 0; snapshot->stain && i < stage->bodies->len; i++)
     spore_stage_body_stain(stage, stage->bodies->pdata[i], snapshot);
   spore_stage_show_field(stage, snapshot);

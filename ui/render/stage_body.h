@@ -86,6 +86,7 @@ struct SporeStage {
   void (*found)(gpointer data);
   gpointer found_data;
   GHashTable *textures; /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
+  GArray *lenses;       /* SporeLensState of the snapshot that is shown, one a camera of the scene */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;

@@ -69,6 +69,14 @@ static SporeCamera look_from(SporeVec3 position, SporeVec3 target, const SporeCa
                        .distortion = fields->distortion};
 }
 
+/* What is on the lens of that camera: the cameras of the scene are the eyes of the world, in the same order. */
+static void see_through_lens(const SporeStage *stage, const SporeObject *object, SporeCamera *camera) {
+  guint index = spore_camera_number(stage->document, object);
+  if (index >= stage->lenses->len) return;
+  const SporeLensState *lens = &g_array_index(stage->lenses, SporeLensState, index);
+  camera->blood = (double)lens->blood, camera->water = (double)lens->water, camera->haze = (double)lens->haze;
+}
+
 /* The camera is level at the start, and turns with its body. */
 static SporeCamera look_with(const SporeStage *stage, const SporeObject *object) {
   SporeCameraFields fields;
@@ -102,6 +110,7 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
     return TRUE;
   }
   *camera = look_with(stage, object);
+  see_through_lens(stage, object, camera);
   if (aspect < SCENE_ASPECT) camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * SCENE_ASPECT / aspect);
   return TRUE;
 }

@@ -163,7 +163,7 @@ void spore_viewport_look_afresh(SporeViewport *self) {
 void spore_viewport_leave_scene_camera(SporeViewport *self) {
   if (self->through) self->strayed = TRUE;
   self->through = 0;
-  self->camera.roll = self->camera.distortion = 0;
+  self->camera.roll = self->camera.distortion = self->camera.blood = self->camera.water = self->camera.haze = 0;
 }
 
 void spore_viewport_frame(SporeViewport *self) {

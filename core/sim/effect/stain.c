@@ -252,10 +252,14 @@ static bool take_on(float *amount, const SporeWetting *wetting, float time_s) {
   return *amount != before;
 }
 
+double spore_stain_pace(const SporeWorld *world) {
+  double h = world->solver.time_step, pour = fmax(1, round(SPORE_POUR_PACE_S / h)); /* drops move in such steps alone */
+  return pour * fmax(1, round(STAIN_PACE_S / (pour * h)));
+}
+
 void spore_world_stain(SporeWorld *world) {
   SporeStains *stains = &world->stains;
-  double h = world->solver.time_step, pour = fmax(1, round(SPORE_POUR_PACE_S / h)); /* drops move in such steps alone */
-  double steps = pour * fmax(1, round(STAIN_PACE_S / (pour * h)));
+  double steps = spore_stain_pace(world);
   if (!spore_world_may_stain(world) || world->state.step % (uint64_t)steps != 0) return;
   const SporeContact *contacts = spore_grid_contacts(world->contact.grid);
   const SporePair *pairs;
@@ -265,7 +269,7 @@ void spore_world_stain(SporeWorld *world) {
   bool changed = false;
   for (size_t i = 0; i < stains->wet_count; i++) {
     uint32_t place = stains->wet[i];
-    changed |= take_on(&stains->amount[place], &stains->wetting[place], (float)(steps * h));
+    changed |= take_on(&stains->amount[place], &stains->wetting[place], (float)(steps * world->solver.time_step));
     stains->wetting[place] = (SporeWetting){0};
   }
   stains->wet_count = 0;

@@ -37,6 +37,8 @@ void spore_world_clear_stains(SporeWorld *world);
 void spore_world_reset_stains(SporeWorld *world);
 /* Whether something may be stained, or washed. */
 bool spore_world_may_stain(const SporeWorld *world);
+/* Steps from one look at what is wet to the next. */
+double spore_stain_pace(const SporeWorld *world);
 /* Stage: what drops lie on takes on their colour, or loses it. */
 void spore_world_stain(SporeWorld *world);
 

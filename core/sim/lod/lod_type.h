@@ -42,6 +42,9 @@ typedef struct SporeLodDescription {
 typedef struct SporeEyeDescription {
   uint32_t body;   /* the rigid or active body that the eye moves with; SPORE_NO_BODY: it stands still */
   SporeVec3 point; /* world, at time 0, m */
+  SporeVec3 sight; /* the way it looks, at time 0; of length 1 */
+  double lens;     /* radius of the front lens, m; 0: nothing wets it */
+  double haze_s;   /* how long smoke hazes the view, until a third is left, s; 0: smoke is seen by its puffs alone */
 } SporeEyeDescription;
 
 /* Level of detail of a body, and what changes of level did since time 0. */

@@ -37,6 +37,9 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->stain_count = world->stains.count;
   if (world->stains.count > 0) snapshot->stain = SPORE_NEW_ARRAY(float, world->stains.count);
   if (world->stains.count > 0 && !snapshot->stain) return false;
+  snapshot->lens_count = world->lenses.count;
+  if (world->lenses.count > 0) snapshot->lenses = SPORE_NEW_ARRAY(SporeLensState, world->lenses.count);
+  if (world->lenses.count > 0 && !snapshot->lenses) return false;
   snapshot->cuts.capacity = world->topology.cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->topology.cuts.capacity);
   snapshot->cuts.corner_count = world->topology.cuts.corner_count;
@@ -71,6 +74,7 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].stain);
+    spore_free(snapshots->buffers[i].lenses);
     spore_free(snapshots->buffers[i].cuts.edges);
     spore_free(snapshots->buffers[i].cuts.corners);
     spore_free(snapshots->buffers[i].lines.breaks);
@@ -213,6 +217,7 @@ void spore_world_publish(SporeWorld *world) {
   copy_cuts(world, snapshot);
   copy_lines(world, snapshot);
   copy_stains(world, snapshot);
+  for (size_t i = 0; i < world->lenses.count; i++) snapshot->lenses[i] = world->lenses.state[i];
   snapshot->step_us = world->schedule.step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);
