@@ -1,4 +1,4 @@
-/* What is done to all that is selected: made soft, held, hidden, shown alone, deleted. */
+/* What is done to all that is selected: made soft, held, hidden, shown alone, locked, deleted. */
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
@@ -147,6 +147,37 @@ static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer da
   shown_changed(self);
 }
 
+/* Locking. */
+
+static void locks_changed(SporeWindow *self) {
+  spore_outliner_set_locked(SPORE_OUTLINER(self->outliner), spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)));
+  spore_window_update_actions(self);
+  spore_window_show_hint(self);
+}
+
+static void act_lock(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  spore_viewport_lock_or_unlock(SPORE_VIEWPORT(self->viewport), bodies);
+  locks_changed(self);
+}
+
+static void act_lock_or_unlock(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_document_by_path(document_of(self), g_variant_get_string(parameter, NULL));
+  g_autoptr(GPtrArray) bodies = g_ptr_array_new();
+  if (!body || !g_str_equal(spore_object_type(body)->element, "body")) return;
+  g_ptr_array_add(bodies, body);
+  spore_viewport_lock_or_unlock(SPORE_VIEWPORT(self->viewport), bodies);
+  locks_changed(self);
+}
+
+static void act_unlock_all(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  spore_viewport_unlock_all(SPORE_VIEWPORT(self->viewport));
+  locks_changed(self);
+}
+
 /* Deleting. */
 
 static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -170,6 +201,9 @@ void spore_window_add_body_actions(SporeWindow *self) {
       {"isolate", act_hide},
       {"hide-or-show", act_hide_or_show, "s"},
       {"show-all", act_show_all},
+      {"lock", act_lock},
+      {"lock-or-unlock", act_lock_or_unlock, "s"},
+      {"unlock-all", act_unlock_all},
       {"delete", act_delete},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

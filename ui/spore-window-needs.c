@@ -42,6 +42,7 @@ typedef guint64 Need;
 #define CAMERA NEED(28)
 #define EXERCISE NEED(29)
 #define PORTS NEED(30)
+#define LOCKED NEED(32)
 #define MISSING NEED(31)
 
 /* In the order in which they are told. */
@@ -65,6 +66,7 @@ static const struct {
     {NAMED, N_("select something first that has a name, in the outliner or in the view")},
     {ALONE, N_("select one thing alone first")},
     {HIDDEN, N_("nothing is hidden")},
+    {LOCKED, N_("nothing is locked")},
     {MEASURES, N_("nothing is measured in the view")},
     {UNMEASURED, N_("the accuracy is being measured")},
     {STUDY, N_("measure the accuracy first")},
@@ -98,6 +100,8 @@ static const struct {
     {"hide", BODY},
     {"isolate", BODY},
     {"show-all", HIDDEN},
+    {"lock", BODY},
+    {"unlock-all", LOCKED},
     {"measure", BODIES},
     {"clear-measures", MEASURES},
     {"select-organs", BODIES},
@@ -240,6 +244,7 @@ static Need of_scene(SporeWindow *self) {
          (spore_object_child_count(spore_document_section(document, "exercise")) ? EXERCISE : 0) |
          (measuring ? 0 : UNMEASURED) | (self->missing ? MISSING : 0) |
          (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
+         (g_hash_table_size(spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport))) ? LOCKED : 0) |
          (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
          (spore_editor_document_get_study(self->document) ? STUDY : 0) |
          (spore_accuracy_can_apply(SPORE_ACCURACY(self->accuracy)) ? POINT : 0) |

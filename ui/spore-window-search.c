@@ -44,6 +44,8 @@ static const struct {
     {"win.keep-scale", N_("Colours: keep this scale, or let it follow the state")},
     {"win.show-reach", N_("Show or hide what instruments reach through their ports")},
     {"win.show-figures", N_("Show or hide what a step costs")},
+    {"win.lock", N_("Lock or unlock what is selected")},
+    {"win.unlock-all", N_("Unlock all")},
     {"win.clear-measures", N_("Remove all measures")},
     {"win.cut::none", N_("Look inside: nothing is hidden")},
     {"win.cut::view", N_("Look inside: plane before the eye")},

@@ -214,6 +214,8 @@ static const char *hint_for(SporeWindow *self) {
   if (edits)
     return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
   if (g_str_equal(g_variant_get_string(tool, NULL), "probe") && leading_hint(self)) return leading_hint(self);
+  if (gizmo_hint(self) && spore_viewport_is_locked(SPORE_VIEWPORT(self->viewport)))
+    return _("What is selected is locked: K, or the lock beside its name, frees it");
   if (gizmo_hint(self)) return gizmo_hint(self);
   if (spore_player_is_repeating(self->player))
     return _("Recorded input is repeated; F5 pauses and goes on, Shift+F5 ends it and goes back to the start");

@@ -46,7 +46,8 @@
  *               view [s "front", "right" or "top"],
  *               show-outliner, show-inspector, show-problems, present (state), show-guide (state: the steps of the
  *               exercise while present is on), filter, hide, isolate (the selected bodies),
- *               hide-or-show [s path of a body], show-all, measure [s "distance", "angle" or "volume"],
+ *               hide-or-show [s path of a body], show-all, lock (the selected bodies, or frees them),
+ *               lock-or-unlock [s path of a body], unlock-all, measure [s "distance", "angle" or "volume"],
  *               swap-views (to the scene's camera and back), second-view (state: the other one, too),
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               wipe-lens (of the same),

@@ -68,6 +68,10 @@ static void test_standing(void) {
   g_assert_cmpuint(pick_down(&setting, 0.05, 0.05, &point), ==, id_of(&setting, "floor"));
   g_assert_cmpfloat_with_epsilon(point.y, 0, 1e-9);
   g_assert_cmpuint(pick_down(&setting, 1, 1, &point), ==, 0);
+  g_autoptr(GHashTable) ball = g_hash_table_new(NULL, NULL);
+  SporeVec3 above = {0.0015, 1, 0.001}, down = {0, -1, 0};
+  g_hash_table_add(ball, GUINT_TO_POINTER(id_of(&setting, "ball")));
+  g_assert_cmpuint(spore_stage_pick_past(setting.stage, ball, above, down, &point), ==, id_of(&setting, "floor"));
   setting_close(&setting);
 }
 

@@ -2076,9 +2076,30 @@ def drag_row(editor, name, onto, done):
     ui.wait(lambda: next(answers), f"{name} to be dragged")
 
 
+def locked_bodies_are_looked_through(editor):
+    """Of a ball on a floor that the camera looks at from before."""
+    editor.act("view", "s", "front")
+    editor.act("frame")
+    x, y, width, height = editor.place(editor.drawn_view())
+    title = lambda name: editor.look("label", f"^{name}$")
+    click = lambda: editor.mouse("mousemove", x + width // 2, y + height * 2 // 5, "click", 1)
+    click()
+    ui.wait(lambda: title("ball"), "the ball to be selected by a click")
+    editor.act("lock")
+    editor.act("select", "s", "bodies/third")
+    ui.wait(lambda: title("third"), "another selection")
+    keep_picture(editor, "locked")
+    click()
+    ui.wait(lambda: not title("third") and not title("ball"), "the click to go through the locked ball")
+    assert not editor.enabled("lock") and editor.enabled("unlock-all")
+    editor.act("unlock-all")
+    click()
+    ui.wait(lambda: title("ball"), "the ball to be selected again")
+
+
 @check
 def rows_of_the_outliner_are_ordered():
-    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own."""
+    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own; a click in the view goes through what is locked."""
     path = write_scene("ordered", "<rigid_body/>")
     path.write_text(path.read_text().replace("</bodies>", '<body name="third" role="unmovable"/></bodies><tools><camera name="eye"/></tools>'))
     row_at = lambda name: editor.place(ui.wait(lambda: editor.row(name), name))
@@ -2103,6 +2124,7 @@ def rows_of_the_outliner_are_ordered():
         assert order_of(saved(editor, "dragged")) == ["floor", "ball", "third"]
         editor.act("undo")
         ui.wait(lambda: row_at("ball")[1] < row_at("third")[1] < row_at("floor")[1], "the order of before")
+        locked_bodies_are_looked_through(editor)
 
 
 @check

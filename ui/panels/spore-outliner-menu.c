@@ -10,6 +10,7 @@ static GMenu *menu_of(const SporeObject *object) {
     g_menu_append(view, _("Hide"), "win.hide");
     g_menu_append(view, _("Show only this"), "win.isolate");
     g_menu_append(view, _("Show all"), "win.show-all");
+    g_menu_append(view, _("Lock or unlock"), "win.lock");
     g_menu_append_section(menu, NULL, G_MENU_MODEL(view));
   }
   g_menu_append(order, _("Move up"), "win.move-row(-1)");

@@ -12,7 +12,8 @@ enum {
   COLUMN_EDITABLE,
   COLUMN_WEIGHT,
   COLUMN_KIND,
-  COLUMN_EYE /* icon; NULL: nothing that a view could hide */
+  COLUMN_EYE, /* icon; NULL: nothing that a view could hide */
+  COLUMN_LOCK /* icon; NULL: nothing that could be locked */
 };
 
 struct _SporeOutliner {
@@ -21,7 +22,7 @@ struct _SporeOutliner {
   GtkTreeStore *store;
   GtkTreeModelFilter *filtered;
   GtkTreeSelection *selection;
-  GtkTreeViewColumn *column, *eye;
+  GtkTreeViewColumn *column, *eye, *lock;
   GtkCellRenderer *name;
   SporeEditorDocument *document;
   guint rebuild;
@@ -29,6 +30,7 @@ struct _SporeOutliner {
   GHashTable *badges;   /* id -> SporeSeverity + 1 */
   GHashTable *problems; /* id -> char *: what the badge stands for */
   GHashTable *hidden;   /* ids of bodies that are hidden in the view; the view's; NULL: not told yet */
+  GHashTable *locked;   /* likewise, of bodies that are locked in the view */
   guint32 dragged;      /* id of the row that is dragged; 0: none, and so long the rows stay as they are */
 };
 

@@ -24,10 +24,18 @@ static const char *kind_of(const SporeObject *object) {
   return g_str_equal(type->element, "body") ? NULL : _(type->label);
 }
 
+static gboolean is_in(GHashTable *ids, const SporeObject *object) {
+  return ids && g_hash_table_contains(ids, GUINT_TO_POINTER(spore_object_id(object)));
+}
+
 static const char *eye_of(SporeOutliner *self, const SporeObject *object) {
   if (!g_str_equal(spore_object_type(object)->element, "body")) return NULL;
-  gboolean hidden = self->hidden && g_hash_table_contains(self->hidden, GUINT_TO_POINTER(spore_object_id(object)));
-  return hidden ? "view-conceal-symbolic" : "view-reveal-symbolic";
+  return is_in(self->hidden, object) ? "view-conceal-symbolic" : "view-reveal-symbolic";
+}
+
+static const char *lock_of(SporeOutliner *self, const SporeObject *object) {
+  if (!g_str_equal(spore_object_type(object)->element, "body")) return NULL;
+  return is_in(self->locked, object) ? "changes-prevent-symbolic" : "changes-allow-symbolic";
 }
 
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
@@ -38,7 +46,7 @@ static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *obj
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
                                     COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
                                     COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), COLUMN_EYE,
-                                    eye_of(self, object), -1);
+                                    eye_of(self, object), COLUMN_LOCK, lock_of(self, object), -1);
 }
 
 static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {
@@ -240,23 +248,28 @@ static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *sel
   return GDK_EVENT_STOP;
 }
 
-/* The eyes. */
+/* The eyes and locks. */
 
-static gboolean update_eye(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+static gboolean update_icons(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
   SporeOutliner *self = data;
   guint id;
   gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
   SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
-  if (object) gtk_tree_store_set(self->store, iter, COLUMN_EYE, eye_of(self, object), -1);
+  if (object)
+    gtk_tree_store_set(self->store, iter, COLUMN_EYE, eye_of(self, object), COLUMN_LOCK, lock_of(self, object), -1);
   return FALSE;
 }
 
-void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden) {
-  g_hash_table_ref(hidden);
-  g_clear_pointer(&self->hidden, g_hash_table_unref);
-  self->hidden = hidden;
-  if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_eye, self);
+static void take_ids(SporeOutliner *self, GHashTable **of, GHashTable *ids) {
+  g_hash_table_ref(ids);
+  g_clear_pointer(of, g_hash_table_unref);
+  *of = ids;
+  if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_icons, self);
 }
+
+void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden) { take_ids(self, &self->hidden, hidden); }
+
+void spore_outliner_set_locked(SporeOutliner *self, GHashTable *locked) { take_ids(self, &self->locked, locked); }
 
 static gboolean tree_menu(GtkWidget *tree, SporeOutliner *self) {
   g_autoptr(GtkTreePath) path = NULL;
@@ -265,7 +278,7 @@ static gboolean tree_menu(GtkWidget *tree, SporeOutliner *self) {
   return path != NULL;
 }
 
-/* A click on an eye hides the body or shows it, and selects nothing. */
+/* A click on an eye hides the body or shows it, one on a lock locks it or frees it; neither selects. */
 static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutliner *self) {
   g_autoptr(GtkTreePath) path = NULL;
   GtkTreeViewColumn *column;
@@ -278,10 +291,10 @@ static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutlin
     return GDK_EVENT_STOP;
   }
   SporeObject *object = spore_outliner_object_at(self, path);
-  if (event->button != GDK_BUTTON_PRIMARY || column != self->eye) return GDK_EVENT_PROPAGATE;
-  if (!object || !eye_of(self, object)) return GDK_EVENT_PROPAGATE;
+  const char *action = column == self->eye ? "hide-or-show" : column == self->lock ? "lock-or-unlock" : NULL;
+  if (event->button != GDK_BUTTON_PRIMARY || !action || !object || !eye_of(self, object)) return GDK_EVENT_PROPAGATE;
   g_autofree char *of_body = spore_object_path(object);
-  spore_activate(tree, "hide-or-show", g_variant_new_string(of_body));
+  spore_activate(tree, action, g_variant_new_string(of_body));
   return GDK_EVENT_STOP;
 }
 
@@ -330,6 +343,7 @@ static void spore_outliner_dispose(GObject *object) {
   g_clear_pointer(&self->badges, g_hash_table_unref);
   g_clear_pointer(&self->problems, g_hash_table_unref);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
+  g_clear_pointer(&self->locked, g_hash_table_unref);
   G_OBJECT_CLASS(spore_outliner_parent_class)->dispose(object);
 }
 
@@ -344,6 +358,7 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeOutliner, selection);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, column);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, eye);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, lock);
   gtk_widget_class_bind_template_child(widget, SporeOutliner, name);
   gtk_widget_class_bind_template_callback(widget, filter_changed);
   gtk_widget_class_bind_template_callback(widget, row_selected);

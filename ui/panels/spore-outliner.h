@@ -17,6 +17,8 @@ void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics);
 /* Ids (as pointers) of the bodies that the view hides. Keeps a reference; after each change it is to be called again.
  */
 void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden);
+/* Likewise, of the bodies that are locked. */
+void spore_outliner_set_locked(SporeOutliner *self, GHashTable *locked);
 /* Begins to edit the name of the selected object. */
 void spore_outliner_rename(SporeOutliner *self);
 /* Moves the selected rows up (-1) or down (1) by one in their list, and so in the scene. */

@@ -101,6 +101,9 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
 void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]);
 /* Body object under a ray: id, 0 none; *point is the hit. */
 guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point);
+/* The same; the ray goes through bodies whose ids, as pointers, are in `skipped`; NULL: through none. */
+guint32 spore_stage_pick_past(const SporeStage *stage, GHashTable *skipped, SporeVec3 origin, SporeVec3 direction,
+                              SporeVec3 *point);
 /* A place on a body as it is drawn, which goes with the body. */
 typedef struct SporeStageHold {
   guint32 body;       /* object id */

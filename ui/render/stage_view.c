@@ -244,23 +244,35 @@ static double meet_body(const SporeStage *stage, const SporeStageBody *body, Spo
   return nearest;
 }
 
-guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point,
-                              SporeStageHold *hold) {
+static guint32 pick(const SporeStage *stage, GHashTable *skipped, SporeVec3 origin, SporeVec3 direction,
+                    SporeVec3 *point, SporeStageHold *hold) {
   double nearest = HUGE_VAL;
   guint32 picked = 0;
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
-    double t =
-        spore_stage_shows(stage, body->object) ? meet_body(stage, body, origin, direction, nearest, hold) : HUGE_VAL;
+    if (!spore_stage_shows(stage, body->object) ||
+        (skipped && g_hash_table_contains(skipped, GUINT_TO_POINTER(body->object))))
+      continue;
+    double t = meet_body(stage, body, origin, direction, nearest, hold);
     if (t < nearest) nearest = t, picked = body->object;
   }
   if (picked) *point = spore_vec3_add_scaled(origin, nearest, direction);
   return picked;
 }
 
-guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point) {
+guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point,
+                              SporeStageHold *hold) {
+  return pick(stage, NULL, origin, direction, point, hold);
+}
+
+guint32 spore_stage_pick_past(const SporeStage *stage, GHashTable *skipped, SporeVec3 origin, SporeVec3 direction,
+                              SporeVec3 *point) {
   SporeStageHold hold;
-  return spore_stage_pick_hold(stage, origin, direction, point, &hold);
+  return pick(stage, skipped, origin, direction, point, &hold);
+}
+
+guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point) {
+  return spore_stage_pick_past(stage, NULL, origin, direction, point);
 }
 
 static const SporeStageBody *find_body(const SporeStage *stage, guint32 object) {

@@ -86,7 +86,8 @@ static void show(SporeViewport *self) {
 void spore_viewport_edit_refresh(SporeViewport *self) {
   if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
   SporeObject *holder = self->regions ? spore_document_by_id(document_of(self), self->regions) : NULL;
-  if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
+  if (spore_viewport_is_locked(self)) spore_hand_edit_close(&self->edit);
+  else if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
   else spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
   show(self);
 }

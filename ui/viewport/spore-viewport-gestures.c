@@ -14,12 +14,22 @@ static SporeSession *session_of(SporeViewport *self) {
 static int width_of(SporeViewport *self) { return gtk_widget_get_allocated_width(self->area); }
 static int height_of(SporeViewport *self) { return gtk_widget_get_allocated_height(self->area); }
 
-static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
+static guint32 pick_past(SporeViewport *self, GHashTable *skipped, double x, double y, SporeVec3 *point) {
   SporeVec3 origin, direction;
   if (!self->stage) return 0;
   spore_camera_ray(&self->camera, x, y, width_of(self), height_of(self), &origin, &direction);
   spore_viewport_clip_picking(self);
-  return spore_stage_pick(self->stage, origin, direction, point);
+  return spore_stage_pick_past(self->stage, skipped, origin, direction, point);
+}
+
+/* A place on whatever is there. */
+static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
+  return pick_past(self, NULL, x, y, point);
+}
+
+/* What is to be selected or pulled: locked bodies are looked through. */
+static guint32 pick_unlocked(SporeViewport *self, double x, double y, SporeVec3 *point) {
+  return pick_past(self, self->locked, x, y, point);
 }
 
 /* Pull. */
@@ -27,7 +37,7 @@ static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
 static gboolean begin_pull(SporeViewport *self, double x, double y) {
   SporeSession *session = session_of(self);
   SporeVec3 point;
-  guint32 id = session ? pick(self, x, y, &point) : 0;
+  guint32 id = session ? pick_unlocked(self, x, y, &point) : 0;
   SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
   if (!object) return FALSE;
   const SporeSimulation *simulation = spore_session_simulation(session);
@@ -138,7 +148,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && spore_viewport_hand_press(self)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
   guint32 link = self->tool == SPORE_VIEWPORT_TOOL_SELECT ? spore_viewport_link_at(self, event->x, event->y) : 0;
-  guint32 body = link ? link : pick(self, event->x, event->y, &point);
+  guint32 body = link ? link : pick_unlocked(self, event->x, event->y, &point);
   if (body && spore_viewport_edit_place(self, body, point)) return;
   if (body && event->state & GDK_SHIFT_MASK) spore_editor_document_toggle(self->document, body);
   else if (body) spore_editor_document_select(self->document, body);
@@ -149,7 +159,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
 /* The menu is of what lies under the cursor, or of all that is selected where that is a part of it. */
 static void press_right(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
-  guint32 body = pick(self, event->x, event->y, &point);
+  guint32 body = pick_unlocked(self, event->x, event->y, &point);
   if (body && !spore_editor_document_is_selected(self->document, body))
     spore_editor_document_select(self->document, body);
   spore_viewport_popup(self, (const GdkEvent *)event, body != 0);
@@ -261,11 +271,22 @@ static const struct {
   const char *action; /* detailed */
   gboolean presented; /* only while the view is shown alone */
 } keys[] = {
-    {GDK_KEY_m, "win.measure::distance"}, {GDK_KEY_h, "win.hide"},         {GDK_KEY_i, "win.isolate"},
-    {GDK_KEY_a, "win.show-all"},          {GDK_KEY_f, "win.frame"},        {GDK_KEY_0, "win.view::camera"},
-    {GDK_KEY_1, "win.view::front"},       {GDK_KEY_3, "win.view::right"},  {GDK_KEY_7, "win.view::top"},
-    {GDK_KEY_e, "win.show-guide", TRUE},  {GDK_KEY_x, "win.swap-views"},   {GDK_KEY_w, "win.gizmo::move"},
-    {GDK_KEY_e, "win.gizmo::turn"},       {GDK_KEY_r, "win.gizmo::scale"}, {GDK_KEY_v, "win.second-view"},
+    {GDK_KEY_m, "win.measure::distance"},
+    {GDK_KEY_h, "win.hide"},
+    {GDK_KEY_i, "win.isolate"},
+    {GDK_KEY_a, "win.show-all"},
+    {GDK_KEY_f, "win.frame"},
+    {GDK_KEY_0, "win.view::camera"},
+    {GDK_KEY_1, "win.view::front"},
+    {GDK_KEY_3, "win.view::right"},
+    {GDK_KEY_7, "win.view::top"},
+    {GDK_KEY_e, "win.show-guide", TRUE},
+    {GDK_KEY_x, "win.swap-views"},
+    {GDK_KEY_w, "win.gizmo::move"},
+    {GDK_KEY_e, "win.gizmo::turn"},
+    {GDK_KEY_r, "win.gizmo::scale"},
+    {GDK_KEY_v, "win.second-view"},
+    {GDK_KEY_k, "win.lock"},
 };
 
 guint spore_viewport_key_of(const char *action) {

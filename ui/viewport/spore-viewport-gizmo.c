@@ -27,7 +27,7 @@ static gboolean is_shown(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   if (session && spore_session_snapshot(session)->time_s > 0) return FALSE;
   return self->gizmo != SPORE_GIZMO_NONE && self->document && self->tool == SPORE_VIEWPORT_TOOL_SELECT &&
-         !self->presented && !self->picking && !spore_viewport_measures_now(self);
+         !self->presented && !self->picking && !spore_viewport_measures_now(self) && !spore_viewport_is_locked(self);
 }
 
 /* What the selection is moved with. NULL: no body is selected. */

@@ -1,5 +1,5 @@
-/* Bodies that are hidden from the view, and the menu of the right button. Hiding is of the view alone: the scene and
- * its simulation do not know of it. */
+/* Bodies that are hidden from the view or locked in it, and the menu of the right button. Both are of the view alone:
+ * the scene and its simulation do not know of it. */
 #include "ui/viewport/spore-viewport-private.h"
 
 #include <glib/gi18n.h>
@@ -48,6 +48,37 @@ void spore_viewport_show_all(SporeViewport *self) {
   hidden_changed(self);
 }
 
+/* Locks. */
+
+GHashTable *spore_viewport_get_locked(SporeViewport *self) { return self->locked; }
+
+static gboolean are_all_locked(SporeViewport *self, const GPtrArray *bodies) {
+  for (guint i = 0; i < bodies->len; i++)
+    if (!g_hash_table_contains(self->locked, GUINT_TO_POINTER(spore_object_id(bodies->pdata[i])))) return FALSE;
+  return TRUE;
+}
+
+/* What the Edit tool works on is looked for again. */
+static void locks_changed(SporeViewport *self) {
+  spore_viewport_edit_refresh(self);
+  spore_viewport_redraw(self);
+}
+
+void spore_viewport_lock_or_unlock(SporeViewport *self, const GPtrArray *bodies) {
+  gboolean frees = are_all_locked(self, bodies);
+  for (guint i = 0; i < bodies->len; i++) {
+    gpointer id = GUINT_TO_POINTER(spore_object_id(bodies->pdata[i]));
+    if (frees) g_hash_table_remove(self->locked, id);
+    else g_hash_table_add(self->locked, id);
+  }
+  locks_changed(self);
+}
+
+void spore_viewport_unlock_all(SporeViewport *self) {
+  g_hash_table_remove_all(self->locked);
+  locks_changed(self);
+}
+
 /* The menu. */
 
 static GMenu *menu_of_levels(void) {
@@ -68,6 +99,7 @@ static GMenu *menu_of_body(SporeViewport *self) {
   g_menu_append(menu, _("Hide"), "win.hide");
   g_menu_append(menu, _("Show only this"), "win.isolate");
   g_menu_append(menu, _("Show all"), "win.show-all");
+  g_menu_append(menu, _("Lock or unlock"), "win.lock");
   g_menu_append(menu, _("Copy beside it"), "win.duplicate");
   g_menu_append(menu, _("Rename…"), "win.rename-dialog");
   g_menu_append(menu, _("Delete"), "win.delete");
@@ -78,6 +110,7 @@ static GMenu *menu_of_nothing(SporeViewport *self) {
   GMenu *menu = g_menu_new();
   g_menu_append(menu, _("Frame"), "win.frame");
   g_menu_append(menu, _("Show all"), "win.show-all");
+  g_menu_append(menu, _("Unlock all"), "win.unlock-all");
   g_menu_append_submenu(menu, _("Add instrument"), self->instrument_kinds);
   g_menu_append(menu, _("Import…"), "win.import-dialog");
   return menu;

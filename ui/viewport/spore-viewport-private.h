@@ -82,6 +82,7 @@ struct _SporeViewport {
   gboolean cut_turned;
   double cut_box[2][3]; /* that the plane goes over: lower and upper corner, m */
   GHashTable *hidden;   /* ids of bodies that are not shown, as pointers */
+  GHashTable *locked;   /* ids of bodies that are neither selected nor changed in the view, as pointers */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
   char *legend;      /* of the candidate's colours; NULL: none */

@@ -84,6 +84,13 @@ void spore_viewport_fit_welcome(SporeViewport *self, int top) {
   gtk_widget_set_margin_top(self->welcome, room ? top : 0);
 }
 
+gboolean spore_viewport_is_locked(SporeViewport *self) {
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  for (guint i = 0; i < bodies->len; i++)
+    if (g_hash_table_contains(self->locked, GUINT_TO_POINTER(spore_object_id(bodies->pdata[i])))) return TRUE;
+  return FALSE;
+}
+
 /* The camera. */
 
 SporeCamera spore_viewport_beginning(void) {

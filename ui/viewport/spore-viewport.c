@@ -209,6 +209,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   spore_viewport_end_drag(self);
   release_document(self);
   g_hash_table_remove_all(self->hidden);
+  g_hash_table_remove_all(self->locked);
   spore_viewport_measures_forget(self->measures);
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
@@ -331,6 +332,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
+  g_clear_pointer(&self->locked, g_hash_table_unref);
   g_clear_pointer(&self->link_marks, g_array_unref);
   g_clear_pointer(&self->ports, g_array_unref);
   g_clear_pointer(&self->measures, spore_viewport_measures_free);
@@ -405,6 +407,7 @@ void spore_viewport_set_controls(SporeViewport *self, GtkWidget *controls) {
 
 static void spore_viewport_init(SporeViewport *self) {
   self->hidden = g_hash_table_new(NULL, NULL);
+  self->locked = g_hash_table_new(NULL, NULL);
   self->link_marks = spore_viewport_link_marks_new();
   self->ports = spore_viewport_ports_new();
   self->measures = spore_viewport_measures_new();

@@ -120,6 +120,13 @@ void spore_viewport_show_all(SporeViewport *self);
 void spore_viewport_hide_or_show(SporeViewport *self, const SporeObject *body);
 GHashTable *spore_viewport_get_hidden(SporeViewport *self); /* set of ids as pointers; the view's own */
 guint spore_viewport_hidden_count(SporeViewport *self);
+/* Locks the bodies (of SporeObject *), or frees them where all of them are locked. A locked body is neither selected
+ * nor pulled in the view, and stays as it is there; the outliner and the inspector have it as before. */
+void spore_viewport_lock_or_unlock(SporeViewport *self, const GPtrArray *bodies);
+void spore_viewport_unlock_all(SporeViewport *self);
+GHashTable *spore_viewport_get_locked(SporeViewport *self); /* set of ids as pointers; the view's own */
+/* Whether one of the selected bodies is locked. */
+gboolean spore_viewport_is_locked(SporeViewport *self);
 /* The next clicks on bodies measure; Escape goes back. What is measured follows the bodies, is listed in the view, and
  * can be removed there. Another document has none. */
 void spore_viewport_measure(SporeViewport *self, const SporeGauge *gauge);
