@@ -27,7 +27,7 @@ static void clear_request(Request *request) {
 }
 
 static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report,
-                      SporeSpheresMode mode) {
+                      const SporeSpheresOptions *options) {
   spore_cli_say(cli,
                 _("%zu spheres: coverage %.1f %%, outside %.1f %%, distance %.3f %% (largest %.2f %%) of the diagonal, "
                   "depth error %.3f, %.2f s\n"),
@@ -38,7 +38,7 @@ static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpher
                   ngettext("The mesh is its own image in %zu plane; so is the set.\n",
                            "The mesh is its own image in %zu planes; so is the set.\n", report->mirrors),
                   report->mirrors);
-  g_autofree char *verdict = spore_spheres_verdict(report, mode, set->count);
+  g_autofree char *verdict = spore_spheres_verdict(options, report, set->count);
   if (verdict) spore_cli_say(cli, "%s.\n", verdict);
 }
 
@@ -118,13 +118,41 @@ static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, co
   spore_cli_close_array(cli);
 }
 
+/* The other way for what has tetrahedra, beside the one that was chosen. solid: that both are measured against; NULL:
+ * the boundary of the cells. */
+static gboolean report_other(SporeCli *cli, const SporeTetrahedralMesh *cells, const SporeTriangleMesh *solid,
+                             const SporeSpheresOptions *options, GError **error) {
+  const SporeSpheresSource source =
+      solid ? (SporeSpheresSource){.solid = solid} : (SporeSpheresSource){.tetrahedra = cells};
+  SporeSpheresOptions other = *options;
+  SporeSphereSet set;
+  SporeSpheresReport report;
+  SporeError fault = SPORE_ERROR_INIT;
+  other.each_cell = !options->each_cell;
+  if (!cells || cells->tetrahedron_count > SPORE_SPHERES_MAXIMUM) {
+    spore_cli_text(cli, "other", NULL);
+    return TRUE;
+  }
+  bool done = other.each_cell
+                  ? spore_spheres_of_cells(cells, solid, &set, &report, &fault)
+                  : spore_spheres_from_source(&source, &other, &set, &report, spore_cli_progress(cli), &fault);
+  if (!done) return spore_error_propagate(&fault, error);
+  spore_cli_open(cli, "other");
+  spore_cli_spheres_members(cli, set.count, &report);
+  spore_cli_close(cli);
+  g_autofree char *text = spore_spheres_other_text(options->each_cell, set.count, &report);
+  spore_cli_say(cli, "%s.\n", text);
+  spore_sphere_set_clear(&set);
+  return TRUE;
+}
+
 static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
                        const SporeSphereSet *set, const SporeSpheresReport *report) {
   const char *hardest = options->count ? NULL : spore_spheres_hardest_target(&options->targets, report, NULL);
   spore_cli_spheres_members(cli, set->count, report);
   spore_cli_text(cli, "hardest", hardest);
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
-  else say_solid(cli, set, report, options->mode);
+  else say_solid(cli, set, report, options);
   if (hardest) spore_cli_say(cli, _("Hardest to reach of what was asked for: %s.\n"), hardest);
   if (!source->sheet && !source->curve && report->coverage < THIN)
     spore_cli_say(cli,
@@ -147,7 +175,10 @@ static gboolean write_set(SporeCli *cli, const char *file, const Request *reques
     g_autofree char *text = spore_spheres_format(&set, &size);
     done = spore_write_file(request->output, text, size, error);
   }
-  if (done) report_set(cli, source, options, &set, &report);
+  if (done) {
+    report_set(cli, source, options, &set, &report);
+    done = report_other(cli, source->tetrahedra, NULL, options, error);
+  }
   spore_sphere_set_clear(&set);
   return done;
 }
@@ -172,6 +203,7 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   SporeSpheresOptions options =
       spore_edit_spheres_options(&fields, (const SporeGenerateRegion *)(gconstpointer)regions->data, regions->len);
   options.asymmetric = request->asymmetric;
+  options.each_cell = options.each_cell && !counts;
   options.thickness = fmax(request->thickness, 0);
   gboolean done = read_source(cli, file, request, &read, error);
   if (done && counts)
@@ -180,6 +212,15 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   else done = done && write_set(cli, file, request, &read.source, &options, error);
   clear_read(&read);
   return done;
+}
+
+/* Round each of the body's cells they are measured against its mesh all the same. */
+static gboolean make_in(SporeCli *cli, const char *file, const SporeSpheresSource *source,
+                        const SporeTetrahedralMesh *cells, const SporeSpheresOptions *options, SporeSphereSet *set,
+                        SporeSpheresReport *report, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  if (!options->each_cell || !cells) return make_set(cli, file, source, options, set, report, error);
+  return spore_spheres_of_cells(cells, source->solid, set, report, &fault) || spore_error_propagate(&fault, error);
 }
 
 static gboolean generate_in(SporeCli *cli, const char *file, const Request *request, SporeSceneBody *scene,
@@ -191,7 +232,9 @@ static gboolean generate_in(SporeCli *cli, const char *file, const Request *requ
   const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count);
   const SporeSpheresSource source = {.solid = scene->mesh};
   const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
-  gboolean done = make_set(cli, file, &source, &options, &set, &report, error) &&
+  const SporeTetrahedralMesh *cells = spore_edit_body_cells(scene->document, scene->body);
+  gboolean done = make_in(cli, file, &source, cells, &options, &set, &report, error) &&
+                  report_other(cli, cells, scene->mesh, &options, error) &&
                   spore_edit_use_spheres(scene->document, scene->body, &from, &set, error);
   if (done) {
     report_set(cli, &source, &options, &set, &report);
@@ -227,7 +270,11 @@ static int check_request(const Request *request, gboolean scene) {
   if (scene && check_scene(request) != SPORE_EXIT_DONE) return SPORE_EXIT_INPUT;
   int ways = (spore_cli_options_way(&request->options) >= 0) + (request->counts != NULL);
   g_autofree char *all = spore_cli_options_ways(&request->options);
-  if (scene ? ways > 1 : ways != 1)
+  SporeSpheresFields fields;
+  spore_parameters_set_initial(&request->options.table, &fields);
+  spore_cli_options_fill(&request->options, &fields);
+  gboolean each = spore_edit_spheres_options(&fields, NULL, 0).each_cell;
+  if (scene || each ? ways > 1 : ways != 1)
     return spore_cli_usage(_("spore spheres: neither a number of spheres nor what they are to reach is given, or both; "
                              "expected one of %s, or --counts with several numbers; give one of them"),
                            all);
@@ -260,6 +307,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
       {"hardest", N_("of what was asked for, what takes so many: coverage, outside, distance or depth_error; null: "
                      "nothing was but a number")},
+      {"other", N_("of what has tetrahedra: the members count to mirrors of spheres made the other way, fitted or one "
+                   "round each; else null")},
       {"points", N_("with --counts, instead of all above: each number with the members above")},
       {"enough", N_("with --counts: the number from which on more spheres do not pay; null: all pay")},
       {"worth", N_("with --counts: as given")},

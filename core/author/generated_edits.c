@@ -21,6 +21,11 @@ SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *bo
   return spore_edit_used_asset(document, body, "mechanical", "geometry", "tetrahedra");
 }
 
+const SporeTetrahedralMesh *spore_edit_body_cells(SporeDocument *document, SporeObject *body) {
+  SporeObject *asset = spore_edit_body_tetrahedra(document, body);
+  return asset ? spore_document_tetrahedra(document, asset, NULL) : NULL;
+}
+
 static SporeObject *generated(SporeObject *asset) {
   const char *source = asset ? spore_object_text(asset, "source") : NULL;
   return source && *source ? asset : NULL;

@@ -18,6 +18,8 @@ typedef struct SporeGeneratedFrom {
 /* Sphere, tetrahedra or curve asset in use by the body, or NULL. */
 SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
 SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
+/* Its tetrahedra; NULL: it has none, or they cannot be read. Borrowed from the document. */
+const SporeTetrahedralMesh *spore_edit_body_cells(SporeDocument *document, SporeObject *body);
 /* The curve that the body is made of, else a curve that was generated from the mesh it shows. */
 SporeObject *spore_edit_body_curve(SporeDocument *document, SporeObject *body);
 /* The patch with corners that the body is made of. */

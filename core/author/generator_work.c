@@ -116,6 +116,13 @@ static gboolean same_regions(const SporeGenerateWork *work, const SporeObject *a
          memcmp(regions, work->regions, count * sizeof *regions) == 0;
 }
 
+static bool copy_cells(SporeTetrahedralMesh *copy, const SporeTetrahedralMesh *cells, SporeError *error) {
+  if (!spore_tetrahedral_mesh_allocate(copy, cells->vertex_count, cells->tetrahedron_count, error)) return false;
+  memcpy(copy->vertices, cells->vertices, 3 * cells->vertex_count * sizeof *cells->vertices);
+  memcpy(copy->tetrahedra, cells->tetrahedra, 4 * cells->tetrahedron_count * sizeof *cells->tetrahedra);
+  return true;
+}
+
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error) {
   if (options->kind == SPORE_GENERATE_LABELS) return new_of_labels(options);
@@ -131,7 +138,10 @@ SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject 
   SporeObject *target = spore_generate_target(document, body, options->kind);
   if (spore_edit_generator_regions(target, work->regions, &work->region_count, error)) {
     work->own_region_count = work->region_count;
-    if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure)) return work;
+    const SporeTetrahedralMesh *cells =
+        options->kind == SPORE_GENERATE_SPHERES ? spore_edit_body_cells(document, body) : NULL;
+    if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure) && (!cells || copy_cells(&work->cells, cells, &failure)))
+      return work;
     spore_error_propagate(&failure, error);
   }
   spore_generate_work_unref(work);
@@ -143,6 +153,7 @@ static void clear_work(gpointer data) {
   g_free(work->source);
   g_free(work->source_hash);
   spore_triangle_mesh_clear(&work->mesh);
+  spore_tetrahedral_mesh_clear(&work->cells);
   spore_sphere_set_clear(&work->spheres);
   spore_spheres_quality_clear(&work->spheres_quality);
   spore_tetrahedral_mesh_clear(&work->tetrahedra);

@@ -64,9 +64,12 @@ struct SporeGenerateWork {
   gsize region_count, own_region_count; /* own: of the asset; the others are new to it */
   SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
   SporeTriangleMesh mesh;
+  SporeTetrahedralMesh cells;              /* of the organ, for spheres; empty: it has none */
   SporeSphereSet spheres;                  /* out, or in for measuring */
   SporeSpheresReport spheres_report;       /* out */
   SporeSpheresQuality spheres_quality;     /* out */
+  SporeSpheresReport other_report;         /* out: of spheres made the other way, with cells */
+  size_t other_count;                      /* of them; 0: they were not made */
   SporeTetrahedralMesh tetrahedra;         /* out */
   SporeTetrahedraReport tetrahedra_report; /* out */
   SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */

@@ -10,9 +10,10 @@ static char *bounding_verdict(const SporeSpheresReport *report) {
                          100 * (1 - report->coverage));
 }
 
-char *spore_spheres_verdict(const SporeSpheresReport *report, SporeSpheresMode mode, size_t count) {
+char *spore_spheres_verdict(const SporeSpheresOptions *options, const SporeSpheresReport *report, size_t count) {
   const double error = spore_spheres_felt_error(report);
-  if (mode == SPORE_SPHERES_BOUNDING) return bounding_verdict(report);
+  if (options->each_cell) return NULL;
+  if (options->mode == SPORE_SPHERES_BOUNDING) return bounding_verdict(report);
   if (!(error > 0)) return NULL;
   if (error <= SPORE_SPHERES_GOOD) return g_strdup(_("Good: instruments feel the organ where it is drawn"));
   /* The error falls as the square root of their number or a little faster (liver, spleen: 10 to 400 spheres). */
@@ -30,4 +31,14 @@ char *spore_tetrahedra_verdict(const SporeTetrahedraReport *report) {
   if (report->hausdorff > SPORE_CELLS_GOOD_ERROR)
     return g_strdup(_("Coarse: more tetrahedra come nearer to the organ"));
   return g_strdup(_("Good: no thin cells, and near to the organ"));
+}
+
+char *spore_spheres_other_text(gboolean fitted, size_t count, const SporeSpheresReport *report) {
+  return g_strdup_printf(fitted
+                             ? _("Fitted instead: %zu spheres, coverage %.1f %%, outside %.1f %%, depth error %.1f %%, "
+                                 "distance %.2f %%, %.1f s")
+                             : _("One round each tetrahedron instead: %zu spheres, coverage %.1f %%, outside %.1f %%, "
+                                 "depth error %.1f %%, distance %.2f %%, %.1f s"),
+                         count, 100 * report->coverage, 100 * report->outside, 100 * spore_spheres_felt_error(report),
+                         100 * report->distance_mean, report->seconds);
 }

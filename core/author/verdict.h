@@ -15,9 +15,13 @@
 #define SPORE_CELLS_GOOD_ANGLE_DEG 10.0
 #define SPORE_CELLS_GOOD_ERROR 0.02
 
-/* One translated line without end; g_free. NULL: nothing can be said, as of a set on an open surface. */
-char *spore_spheres_verdict(const SporeSpheresReport *report, SporeSpheresMode mode, size_t count);
+/* Of so many spheres made with the options: one translated line without end; g_free. NULL: nothing can be said, as of a
+ * set on an open surface, or nothing can be done, as about spheres round each tetrahedron. */
+char *spore_spheres_verdict(const SporeSpheresOptions *options, const SporeSpheresReport *report, size_t count);
 /* The same of tetrahedra. */
 char *spore_tetrahedra_verdict(const SporeTetrahedraReport *report);
+/* What spheres made the other way would be, in a translated line without end: fitted instead of one round each
+ * tetrahedron, or that instead. g_free. */
+char *spore_spheres_other_text(gboolean fitted, size_t count, const SporeSpheresReport *report);
 
 #endif

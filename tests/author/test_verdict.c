@@ -23,11 +23,12 @@ static SporeSpheresReport spheres_of_tube(size_t count) {
 static void test_number_that_does(void) {
   const size_t few = 5;
   SporeSpheresReport report = spheres_of_tube(few);
-  g_autofree char *coarse = spore_spheres_verdict(&report, SPORE_SPHERES_BALANCED, few);
+  g_autofree char *coarse = spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BALANCED}, &report, few);
   g_assert_true(g_str_has_prefix(coarse, "Coarse: about ") || g_str_has_prefix(coarse, "Fair: about "));
   size_t wanted = (size_t)g_ascii_strtoull(strpbrk(coarse, "0123456789"), NULL, 10);
   report = spheres_of_tube(wanted);
-  g_autofree char *good = spore_spheres_verdict(&report, SPORE_SPHERES_BALANCED, wanted);
+  g_autofree char *good =
+      spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BALANCED}, &report, wanted);
   g_assert_cmpstr(good, ==, "Good: instruments feel the organ where it is drawn");
   g_test_message("%zu: %s; %zu: %.4f", few, coarse, wanted, spore_spheres_felt_error(&report));
   g_assert_cmpfloat(report.depth_error, <=, SPORE_SPHERES_GOOD);
@@ -35,21 +36,23 @@ static void test_number_that_does(void) {
 
 static void test_spheres(void) {
   SporeSpheresReport report = {.coverage = 0.93, .depth_error = 0.06};
-  g_autofree char *fair = spore_spheres_verdict(&report, SPORE_SPHERES_BALANCED, 40);
+  g_autofree char *fair = spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BALANCED}, &report, 40);
   g_assert_cmpstr(fair, ==, "Fair: about 90 spheres would be good");
   report.depth_error = 0.12;
-  g_autofree char *coarse = spore_spheres_verdict(&report, SPORE_SPHERES_BALANCED, 10);
+  g_autofree char *coarse = spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BALANCED}, &report, 10);
   g_assert_cmpstr(coarse, ==, "Coarse: about 90 spheres would be good");
   report.weighted_depth_error = 0.03; /* of a weighted set that is what is felt */
-  g_autofree char *weighted = spore_spheres_verdict(&report, SPORE_SPHERES_WEIGHTED, 10);
+  g_autofree char *weighted =
+      spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_WEIGHTED}, &report, 10);
   g_assert_true(g_str_has_prefix(weighted, "Good"));
-  g_autofree char *bounding = spore_spheres_verdict(&report, SPORE_SPHERES_BOUNDING, 10);
+  g_autofree char *bounding =
+      spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BOUNDING}, &report, 10);
   g_assert_cmpstr(bounding, ==, "Not proven to hold all of the organ: 7.0 % is outside the spheres");
   report.certified = true;
-  g_autofree char *proven = spore_spheres_verdict(&report, SPORE_SPHERES_BOUNDING, 10);
+  g_autofree char *proven = spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BOUNDING}, &report, 10);
   g_assert_true(g_str_has_prefix(proven, "Good"));
   report = (SporeSpheresReport){.coverage = 0.9}; /* of an open surface no depth is known */
-  g_assert_null(spore_spheres_verdict(&report, SPORE_SPHERES_BALANCED, 10));
+  g_assert_null(spore_spheres_verdict(&(SporeSpheresOptions){.mode = SPORE_SPHERES_BALANCED}, &report, 10));
 }
 
 static void test_tetrahedra(void) {

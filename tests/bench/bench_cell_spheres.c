@@ -1,59 +1,10 @@
 /* The paper's spheres of a deformable body: the least one round each of its tetrahedra, measured against their boundary
  * as `spore spheres` measures its own. The argument is a .mesh file; the answer is JSON on a line. */
 #include <glib.h>
-#include <math.h>
 #include <stdio.h>
 
-#include "core/base/memory.h"
 #include "core/generate/spheres/spheres.h"
 #include "core/io/mesh_import.h"
-
-/* Solves the symmetric positive definite a x = b of `count` unknowns by elimination; a, b are destroyed. */
-static void solve(size_t count, double a[3][3], double b[3], double x[3]) {
-  for (size_t k = 0; k < count; k++)
-    for (size_t i = k + 1; i < count; i++) {
-      double factor = a[i][k] / a[k][k];
-      for (size_t j = k; j < count; j++) a[i][j] -= factor * a[k][j];
-      b[i] -= factor * b[k];
-    }
-  for (size_t k = count; k-- > 0;) {
-    x[k] = b[k];
-    for (size_t j = k + 1; j < count; j++) x[k] -= a[k][j] * x[j];
-    x[k] /= a[k][k];
-  }
-}
-
-/* The least sphere through the corners, in their plane or on their line where they are three or two. */
-static double circumscribe(const SporeVec3 *corners, size_t count, SporeVec3 *centre) {
-  double gram[3][3], half[3], x[3];
-  for (size_t i = 1; i < count; i++) {
-    SporeVec3 a = spore_vec3_sub(corners[i], corners[0]);
-    for (size_t j = 1; j < count; j++) gram[i - 1][j - 1] = spore_vec3_dot(a, spore_vec3_sub(corners[j], corners[0]));
-    half[i - 1] = 0.5 * spore_vec3_dot(a, a);
-  }
-  solve(count - 1, gram, half, x);
-  *centre = corners[0];
-  for (size_t i = 1; i < count; i++)
-    *centre = spore_vec3_add_scaled(*centre, x[i - 1], spore_vec3_sub(corners[i], corners[0]));
-  return spore_vec3_distance(*centre, corners[0]);
-}
-
-/* The least sphere that holds all four: through two, three or four of them. */
-static void enclose(const SporeVec3 corners[4], double sphere[4]) {
-  sphere[3] = HUGE_VAL;
-  for (unsigned subset = 3; subset < 16; subset++) {
-    SporeVec3 some[4], centre;
-    size_t count = 0;
-    for (unsigned k = 0; k < 4; k++)
-      if (subset >> k & 1) some[count++] = corners[k];
-    if (count < 2) continue;
-    double radius = circumscribe(some, count, &centre), farthest = 0;
-    for (int k = 0; k < 4; k++) farthest = fmax(farthest, spore_vec3_distance(centre, corners[k]));
-    if (farthest > radius * (1 + 1e-9) || !(farthest < sphere[3])) continue;
-    spore_vec3_store(sphere, centre);
-    sphere[3] = farthest;
-  }
-}
 
 int main(int argc, char **argv) {
   SporeTetrahedralMesh cells = {0};
@@ -65,20 +16,10 @@ int main(int argc, char **argv) {
   g_assert_cmpint(argc, ==, 2);
   if (!g_file_get_contents(argv[1], &text, &size, &error) || !spore_medit_parse(argv[1], text, size, &cells, &error))
     g_error("%s", error->message);
-  SporeTriangleMesh boundary = {.vertex_count = cells.vertex_count, .vertices = cells.vertices};
-  g_assert_true(spore_tetrahedral_mesh_boundary(&cells, &boundary.triangles, &boundary.triangle_count));
-  g_assert_true(spore_sphere_set_allocate(&set, cells.tetrahedron_count, NULL));
-  for (size_t t = 0; t < cells.tetrahedron_count; t++) {
-    SporeVec3 corners[4];
-    for (size_t k = 0; k < 4; k++)
-      corners[k] = spore_vec3_load(cells.vertices + 3 * (size_t)cells.tetrahedra[4 * t + k]);
-    enclose(corners, set.spheres + 4 * t);
-  }
-  g_assert_true(spore_spheres_measure(&boundary, &set, &report, NULL));
+  g_assert_true(spore_spheres_of_cells(&cells, NULL, &set, &report, NULL));
   printf("{\"count\": %zu, \"coverage\": %.6g, \"outside\": %.6g, \"distance\": {\"mean\": %.6g}, \"depth_error\": "
          "%.6g}\n",
          set.count, report.coverage, report.outside, report.distance_mean, report.depth_error);
-  spore_free(boundary.triangles);
   spore_sphere_set_clear(&set);
   spore_tetrahedral_mesh_clear(&cells);
   return 0;

@@ -211,10 +211,15 @@ def a_scene_is_authored_by_commands():
     assert all(abs(mesh["diagonal_m"] - guessed["meshes"][0]["diagonal_m"]) < 1e-6 for mesh in guessed["meshes"])
     spore("import", "ball.off", "-o", scene)
     assert report("import", "egg.off", "--unit", "mm", "--add", "-o", scene)["bodies"] == ["ball", "egg"]
-    made = report("tetrahedra", scene, "--body", "egg", "--cells", "300", "--region", "0,0.03,0,0.01,0.004")
-    assert made["body"] == "egg" and made["tetrahedra"] > 100
-    made = report("spheres", scene, "--body", "egg", "--count", "12", "--region", "0,0.03,0,0.01,2")
+    cells = report("tetrahedra", scene, "--body", "egg", "--cells", "300", "--region", "0,0.03,0,0.01,0.004")
+    assert cells["body"] == "egg" and cells["tetrahedra"] > 100
+    each = report("spheres", scene, "--body", "egg", "--method", "tetrahedra", "--count", "12")
+    made = report("spheres", scene, "--body", "egg", "--method", "balanced", "--count", "12", "--region", "0,0.03,0,0.01,2")
     assert made["count"] == 12 and made["scene"] == str(scene)
+    other = made["other"]  # the paper's way beside the fit, and the fit beside the paper's way
+    assert each["count"] == other["count"] == cells["tetrahedra"] and each["other"]["count"] == 12
+    assert other["depth_error"] == each["depth_error"] and each["other"]["depth_error"] > 0 and other["coverage"] > 0.98
+    refuses("spheres", "ball.off", "--method", "tetrahedra", says=("ball.off", "no tetrahedra", ".mesh"))
     first = scene.read_text()
     again = report("spheres", scene, "--body", "egg")
     assert again["count"] == 12 and scene.read_text() == first, "the asset says number and regions, and no second set is made"

@@ -259,7 +259,24 @@ static void test_tetrahedra(void) {
   g_assert_cmpuint(set.count, ==, 40);
   g_assert_cmpfloat(report.coverage, >, 0.95);
   g_assert_cmpfloat(report.outside, <, 0.07);
+  const double fitted = report.depth_error;
   spore_sphere_set_clear(&set);
+  options.each_cell = true; /* the paper's way: all is held, with more outside and a larger error, by more spheres */
+  g_assert_true(spore_spheres_from_tetrahedra(&mesh, &options, &set, &report, NULL, NULL));
+  g_assert_cmpuint(set.count, ==, mesh.tetrahedron_count);
+  for (size_t t = 0; t < set.count; t++)
+    for (size_t k = 0; k < 4; k++)
+      g_assert_cmpfloat(spore_vec3_distance(spore_vec3_load(set.spheres + 4 * t),
+                                            spore_vec3_load(mesh.vertices + 3 * (size_t)mesh.tetrahedra[4 * t + k])),
+                        <, set.spheres[4 * t + 3] * (1 + 1e-9));
+  g_assert_cmpfloat(report.coverage, >, 0.999);
+  g_assert_cmpfloat(report.depth_error, >, fitted);
+  spore_sphere_set_clear(&set);
+  SporeError none = SPORE_ERROR_INIT;
+  const SporeTriangleMesh *nothing = &(SporeTriangleMesh){0};
+  g_assert_false(spore_spheres_from_mesh(nothing, &options, &set, &report, NULL, &none));
+  g_assert_nonnull(strstr(none.message, "no tetrahedra"));
+  options.each_cell = false;
   mesh.tetrahedra[3] = 1000;
   SporeError error = SPORE_ERROR_INIT;
   g_assert_false(spore_spheres_from_tetrahedra(&mesh, &options, &set, &report, NULL, &error));

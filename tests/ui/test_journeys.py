@@ -432,6 +432,19 @@ def a_mesh_of_the_scene_is_changed():
 
 
 @check
+def spheres_round_each_tetrahedron_beside_the_fit():
+    """of a soft organ the panel says what the other way would give: one sphere round each tetrahedron, or as many as asked for, fitted."""
+    with start(write_scene("round", "<neo_hookean_tetrahedra/>", geometry="cells")) as editor:
+        editor.act("select", "s", "bodies/ball")
+        editor.act("preview-spheres", "u", 8)
+        editor.find("label", r"(?s)^8 spheres.*\nOne round each tetrahedron instead: 443 spheres, coverage .* depth error ", 60)
+        keep_picture(editor, "round-fit")
+        editor.choose(editor.find("combo box", "^Method$"), "Tetrahedra")
+        editor.find("label", r"(?s)^443 spheres.*\nFitted instead: 8 spheres, coverage .* depth error ", 60)
+        keep_picture(editor, "round-each")
+
+
+@check
 def spheres_with_their_error():
     """spheres are shown with their error before they are applied, and undo as one step."""
     with start() as editor:

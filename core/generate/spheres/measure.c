@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/base/profile.h"
 #include "core/base/text.h"
 #include "core/generate/spheres/bounding.h"
 
@@ -291,5 +292,18 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
   spore_free(m.points);
   spore_free(m.value);
   spore_balls_clear(&m.balls);
+  return done;
+}
+
+bool spore_spheres_measure(const SporeTriangleMesh *mesh, const SporeSphereSet *set, SporeSpheresReport *report,
+                           SporeError *error) {
+  uint64_t start = spore_clock_ns();
+  SporeSolid solid;
+  SporeProgressPart none = {NULL, 0, 1};
+  *report = (SporeSpheresReport){0};
+  if (!spore_sphere_set_validate(set, error) || !spore_solid_create(&solid, mesh, error)) return false;
+  bool done = spore_solid_measure(&solid, set, report, &none, error);
+  spore_solid_clear(&solid);
+  report->seconds = (double)(spore_clock_ns() - start) * 1e-9;
   return done;
 }

@@ -322,6 +322,12 @@ bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSphe
   bool done = false;
   *set = (SporeSphereSet){0};
   *report = (SporeSpheresReport){0};
+  if (options->each_cell && source->tetrahedra)
+    return spore_spheres_of_cells(source->tetrahedra, NULL, set, report, error);
+  if (options->each_cell)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("there are no tetrahedra to put a sphere round each; expected a soft organ of "
+                             "tetrahedra, or a .mesh file; choose another method, or make them first"));
   if (!check_options(options, error) || !check_mode(source, options, error)) return false;
   if (source->solid) done = from_solid(&work, source->solid, set, report, progress, error);
   else if (source->tetrahedra) done = from_cells(&work, set, report, progress, error);
@@ -344,19 +350,6 @@ bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const Spore
                                    SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
                                    SporeError *error) {
   return spore_spheres_from_source(&(SporeSpheresSource){.tetrahedra = mesh}, options, set, report, progress, error);
-}
-
-bool spore_spheres_measure(const SporeTriangleMesh *mesh, const SporeSphereSet *set, SporeSpheresReport *report,
-                           SporeError *error) {
-  uint64_t start = spore_clock_ns();
-  SporeSolid solid;
-  SporeProgressPart none = {NULL, 0, 1};
-  *report = (SporeSpheresReport){0};
-  if (!spore_sphere_set_validate(set, error) || !spore_solid_create(&solid, mesh, error)) return false;
-  bool done = spore_solid_measure(&solid, set, report, &none, error);
-  spore_solid_clear(&solid);
-  report->seconds = (double)(spore_clock_ns() - start) * 1e-9;
-  return done;
 }
 
 static bool check_counts(const size_t *counts, size_t count, SporeError *error) {

@@ -36,6 +36,7 @@ typedef struct SporeSpheresOptions {
   uint64_t seed;
   const SporeGenerateRegion *regions; /* region_count; for solids only */
   size_t region_count;
+  bool each_cell;   /* of tetrahedra: one round each, whatever the number */
   bool asymmetric;  /* do not search the solid for mirror planes */
   double thickness; /* m, for a sheet: diameter of all spheres; 0: each sphere is as large as needed to leave no gap */
 } SporeSpheresOptions;
@@ -93,6 +94,10 @@ bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOp
 bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options,
                                    SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
                                    SporeError *error);
+/* One sphere round each cell, the least that holds its corners, measured against the solid; NULL: what the boundary of
+ * the cells encloses. At most SPORE_SPHERES_MAXIMUM cells. *set is empty on failure. */
+bool spore_spheres_of_cells(const SporeTetrahedralMesh *cells, const SporeTriangleMesh *solid, SporeSphereSet *set,
+                            SporeSpheresReport *report, SporeError *error);
 /* Measures any set against a solid. */
 bool spore_spheres_measure(const SporeTriangleMesh *mesh, const SporeSphereSet *set, SporeSpheresReport *report,
                            SporeError *error);
