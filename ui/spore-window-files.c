@@ -201,7 +201,7 @@ gboolean spore_window_may_leave(SporeWindow *self) {
 /* Opening. */
 
 void spore_window_offer_recovery(SporeWindow *self) {
-  self->leftover = spore_leftover_find();
+  self->leftover = spore_leftover_find(self->unreadable);
   if (!self->leftover) return;
   g_autofree char *name =
       self->leftover->original ? g_path_get_basename(self->leftover->original) : g_strdup(_("Untitled"));
@@ -212,11 +212,21 @@ void spore_window_offer_recovery(SporeWindow *self) {
   gtk_widget_show(self->recovery_bar);
 }
 
+/* A leftover that cannot be read stays for another program or day; it keeps no other one from being offered. */
+static void recover_the_others(SporeWindow *self, const SporeOpenWork *work, const GError *error) {
+  if (!g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED))
+    g_ptr_array_add(self->unreadable, g_path_get_dirname(work->file));
+  spore_window_offer_recovery(self);
+}
+
 static void opened(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   SporeOpenWork *work = data;
   spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), FALSE);
-  if (spore_window_failed(self, error)) return;
+  if (spore_window_failed(self, error)) {
+    if (work->recovered) recover_the_others(self, work, error);
+    return;
+  }
   SporeDocument *document = g_steal_pointer(&work->document);
   g_clear_object(&self->job); /* this job is done: replacing the document cancels a running job */
   gtk_widget_hide(self->job_box);
@@ -235,11 +245,12 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
   spore_window_log(self, _("Opened %s"), work->original ? work->original : work->file);
 }
 
-static void start_open(SporeWindow *self, SporeOpenWork *work) {
+static gboolean start_open(SporeWindow *self, SporeOpenWork *work) {
   g_autofree char *base = g_path_get_basename(work->original ? work->original : work->file);
   g_autofree char *title = g_strdup_printf(_("Opening %s"), base);
-  if (spore_window_start_job(self, title, spore_open_work_run, work, spore_open_work_free, opened))
-    spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), TRUE);
+  if (!spore_window_start_job(self, title, spore_open_work_run, work, spore_open_work_free, opened)) return FALSE;
+  spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), TRUE);
+  return TRUE;
 }
 
 void spore_window_open(SporeWindow *self, const char *file) {
@@ -254,12 +265,12 @@ void spore_window_open_copy(SporeWindow *self, const char *file) {
   start_open(self, work);
 }
 
-void spore_window_recover(SporeWindow *self) {
-  if (!self->leftover || !spore_window_may_leave(self)) return;
+gboolean spore_window_recover(SporeWindow *self) {
+  if (!self->leftover || !spore_window_may_leave(self)) return FALSE;
   SporeOpenWork *work = spore_open_work_new(self->schema, self->leftover->scene);
   work->original = g_strdup(self->leftover->original);
   work->recovered = TRUE;
-  start_open(self, work);
+  return start_open(self, work);
 }
 
 /* Actions. */

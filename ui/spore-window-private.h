@@ -76,6 +76,7 @@ struct _SporeWindow {
   SporeJob *job;
   SporeRecovery *recovery;
   SporeLeftover *leftover;
+  GPtrArray *unreadable; /* of char *: folders of leftovers whose scene could not be read */
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
@@ -195,8 +196,8 @@ void spore_window_release_document(SporeWindow *self);
 gboolean spore_window_may_leave(SporeWindow *self);
 /* Opens a scene that ships, as one that has no file yet. */
 void spore_window_open_copy(SporeWindow *self, const char *file);
-/* Opens what a dead owner left. */
-void spore_window_recover(SporeWindow *self);
+/* Opens what a dead owner left. FALSE: something else goes on, or the user stays with the scene. */
+gboolean spore_window_recover(SporeWindow *self);
 /* Asks for the name of a file to write. title, kind: translated; extension: added where it is missing; proposed: the
  * name to begin with. g_free; NULL: the user went back. */
 char *spore_window_choose_to_save(SporeWindow *self, const char *title, const char *extension, const char *kind,

@@ -16,8 +16,11 @@ static void message_closed(GtkInfoBar *bar, int response, SporeWindow *self) { g
 
 static void recovery_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
   gtk_widget_hide(GTK_WIDGET(bar));
-  if (response == GTK_RESPONSE_ACCEPT) spore_window_recover(self);
-  else if (self->leftover) spore_leftover_remove(self->leftover);
+  if (response == GTK_RESPONSE_ACCEPT && !spore_window_recover(self)) {
+    gtk_widget_show(GTK_WIDGET(bar)); /* something else goes on: it is still to be had */
+    return;
+  }
+  if (response != GTK_RESPONSE_ACCEPT && self->leftover) spore_leftover_remove(self->leftover);
   g_clear_pointer(&self->leftover, spore_leftover_free);
   if (response != GTK_RESPONSE_ACCEPT) spore_window_offer_recovery(self); /* else once that one is open */
 }
@@ -170,6 +173,7 @@ static void spore_window_dispose(GObject *object) {
   g_clear_object(&self->job);
   g_clear_pointer(&self->recovery, spore_recovery_free);
   g_clear_pointer(&self->leftover, spore_leftover_free);
+  g_clear_pointer(&self->unreadable, g_ptr_array_unref);
   g_clear_pointer(&self->scenes, g_free);
   g_clear_pointer(&self->loose, g_array_unref);
   g_clear_pointer(&self->gaps_logged_ms, g_array_unref);
@@ -256,6 +260,7 @@ static void spore_window_init(SporeWindow *self) {
   self->gaps_logged_ms = g_array_new(FALSE, TRUE, sizeof(double));
   self->fresh = TRUE;
   self->recovery = spore_recovery_new();
+  self->unreadable = g_ptr_array_new_with_free_func(g_free);
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_viewport_set_messages(SPORE_VIEWPORT(self->viewport), self->messages);
   spore_viewport_set_controls(SPORE_VIEWPORT(self->viewport), self->controls);

@@ -681,22 +681,25 @@ static void make_soft(Fixture *fixture) {
 static void test_recovery(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
   SporeRecovery *recovery = spore_recovery_new();
+  g_autoptr(GPtrArray) none = g_ptr_array_new(), that = g_ptr_array_new();
   g_assert_true(spore_recovery_keep(recovery, fixture->editor, &error)); /* nothing unsaved: nothing kept */
-  g_assert_null(spore_leftover_find());
+  g_assert_null(spore_leftover_find(none));
   make_soft(fixture);
   g_autofree char *text = text_of(fixture);
   g_assert_true(spore_recovery_keep(recovery, fixture->editor, &error));
   g_assert_no_error(error);
-  g_assert_null(spore_leftover_find()); /* its owner lives */
-  if (g_test_subprocess()) _exit(0);    /* and now it is dead */
+  g_assert_null(spore_leftover_find(none)); /* its owner lives */
+  if (g_test_subprocess()) _exit(0);        /* and now it is dead */
   spore_recovery_free(recovery);
-  g_assert_null(spore_leftover_find());
+  g_assert_null(spore_leftover_find(none));
 
   g_test_trap_subprocess(NULL, 0, G_TEST_SUBPROCESS_DEFAULT);
   g_test_trap_assert_passed();
-  SporeLeftover *leftover = spore_leftover_find();
+  SporeLeftover *leftover = spore_leftover_find(none);
   g_assert_nonnull(leftover);
   g_assert_null(leftover->original);
+  g_ptr_array_add(that, leftover->folder);
+  g_assert_null(spore_leftover_find(that));
   SporeDocument *recovered = spore_scene_load(fixture->schema, leftover->scene, &error);
   g_assert_no_error(error);
   gsize size;
@@ -708,7 +711,7 @@ static void test_recovery(Fixture *fixture, gconstpointer data) {
   spore_document_free(recovered);
   spore_leftover_remove(leftover);
   spore_leftover_free(leftover);
-  g_assert_null(spore_leftover_find());
+  g_assert_null(spore_leftover_find(none));
 }
 
 /* Translators find the names of the tables in po/labels.c. */

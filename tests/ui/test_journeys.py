@@ -1813,7 +1813,13 @@ def crash_and_recover(end):
     left = next(pathlib.Path(state).rglob("scene.spore"))
     shutil.copytree(left.parent, left.parent.with_name("older"))
     os.utime(left.parent.with_name("older") / left.name, (1e9, 1e9))
+    broken = left.parent.with_name("broken")
+    broken.mkdir()
+    (broken / left.name).write_text("<spore")
     with start(state=state) as editor:
+        editor.find("label", "ended unexpectedly.* was kept")
+        editor.press(editor.find("push button", "^Recover$"))
+        ui.wait(lambda: "scene.spore:1" in (editor.message() or ""), "the word that this one cannot be read")
         editor.find("label", "ended unexpectedly.* was kept \\(" + time.strftime("%m/%d/%y"))
         editor.press(editor.find("push button", "^Recover$"))
         ui.wait(lambda: editor.row("ball_pin"), "the scene that was not saved")
@@ -1823,6 +1829,8 @@ def crash_and_recover(end):
         assert editor.enabled("save")
         text = saved(editor, "recovered")
         assert (folder("saved") / "recovered" / "ball.off").exists() and 'name="ball"' in text
+    assert (broken / left.name).exists(), "what cannot be read stays"
+    shutil.rmtree(broken)
     with start(state=state) as editor:
         editor.find("label", "Begin with an organ")
         assert not editor.look("label", "ended unexpectedly")

@@ -153,13 +153,14 @@ static gint64 modified_time(const char *folder) {
   return info ? (gint64)g_file_info_get_attribute_uint64(info, G_FILE_ATTRIBUTE_TIME_MODIFIED) : -1;
 }
 
-SporeLeftover *spore_leftover_find(void) {
+SporeLeftover *spore_leftover_find(const GPtrArray *passed_over) {
   g_autofree char *root = root_folder();
   g_autoptr(GDir) folders = g_dir_open(root, 0, NULL);
   g_autofree char *newest = NULL;
   gint64 newest_time = -1;
   for (const char *name; folders && (name = g_dir_read_name(folders));) {
     g_autofree char *folder = g_build_filename(root, name, NULL);
+    if (g_ptr_array_find_with_equal_func((GPtrArray *)passed_over, folder, g_str_equal, NULL)) continue;
     gint64 time = modified_time(folder);
     int lock = time > newest_time ? lock_folder(folder) : -1;
     if (lock < 0) continue;

@@ -22,7 +22,8 @@ typedef struct SporeLeftover {
   char *original; /* file it was made from, NULL: it was never saved */
   gint64 kept_s;  /* when it was kept last, since 1970 */
 } SporeLeftover;
-SporeLeftover *spore_leftover_find(void); /* the newest; NULL: none */
+/* The newest that lies in none of these folders (of char *); NULL: none. */
+SporeLeftover *spore_leftover_find(const GPtrArray *passed_over);
 void spore_leftover_remove(const SporeLeftover *leftover);
 void spore_leftover_free(SporeLeftover *leftover);
 
