@@ -6,7 +6,6 @@
 
 #include "core/author/edits.h"
 #include "core/io/mesh_import.h"
-#include "core/io/organ.h"
 #include "core/sim/lod/lod_type.h"
 
 /* By level, coarse first: parts of a number of cells, of points along a line, of cells along an edge. */
@@ -95,7 +94,8 @@ gboolean spore_level_work_run(gpointer data, const SporeProgress *progress, GErr
   return !work->generate || spore_generate_work_run(work->generate, progress, error);
 }
 
-/* The tetrahedra as an asset that remembers how it was made. */
+/* The tetrahedra as an asset that remembers how it was made. The same ones may be there already, from a level that was
+ * given back. */
 static SporeObject *keep(const SporeLevelWork *work, SporeDocument *document, const SporeObject *body, GError **error) {
   const SporeGenerateWork *made = work->generate;
   const SporeGeneratedFrom from = {made->source, made->source_hash, &made->options.fields, made->regions,
@@ -103,16 +103,9 @@ static SporeObject *keep(const SporeLevelWork *work, SporeDocument *document, co
   g_autofree char *name = g_strdup_printf("%s_%s", spore_object_name(body), work->element);
   gsize size;
   char *text = spore_medit_format(&made->tetrahedra, &size);
-  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
-  SporeObject *asset =
-      spore_document_insert(document, spore_document_section(document, "assets"), "tetrahedra", name, G_MAXUINT, error);
-  if (!asset) return NULL;
-  g_autofree char *file = spore_content_file_name(spore_object_name(asset), "mesh", text, size);
-  spore_document_put_blob(document, file, content);
-  return spore_document_set_text(document, asset, "file", file, error) &&
-                 spore_edit_remember_source(document, asset, &from, error)
-             ? asset
-             : NULL;
+  SporeObject *asset = spore_edit_put_asset(document, "tetrahedra", name, "mesh", text, size, error);
+  if (!asset || spore_object_text(asset, "source")) return asset;
+  return spore_edit_remember_source(document, asset, &from, error) ? asset : NULL;
 }
 
 static SporeObject *apply(const SporeLevelWork *work, SporeDocument *document, SporeObject *body, GError **error) {
