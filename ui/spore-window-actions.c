@@ -210,6 +210,13 @@ static gboolean is_on(SporeWindow *self, const char *action) {
   return g_variant_get_boolean(state);
 }
 
+static void change_boxing(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  spore_viewport_set_boxing(SPORE_VIEWPORT(self->viewport), g_variant_get_boolean(state));
+  spore_window_show_hint(self);
+}
+
 /* What the colours of surfaces show. */
 static SporeStageField field_of(SporeWindow *self) {
   g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "colours");
@@ -434,6 +441,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-spheres", NULL, NULL, "false", change_overlay},
       {"show-tetrahedra", NULL, NULL, "false", change_overlay},
       {"show-contacts", NULL, NULL, "false", change_overlay},
+      {"box-select", NULL, NULL, "false", change_boxing},
       {"colours", NULL, "s", "'none'", change_colours},
       {"keep-scale", NULL, NULL, "false", change_keep_scale},
       {"show-reach", NULL, NULL, "false", change_reach},

@@ -117,6 +117,7 @@ static const struct {
     {"lead-next", HANDS},
     {"show-reach", PORTS | BODIES},
     {"colours", BODIES},
+    {"box-select", BODIES},
     {"keep-scale", BODIES},
     {"swap-views", CAMERA | BODIES},
     {"second-view", CAMERA | BODIES},

@@ -198,6 +198,9 @@ static const char *gizmo_hint(SporeWindow *self) {
 
 static const char *hint_for(SporeWindow *self) {
   if (picking_hint(self)) return picking_hint(self);
+  g_autoptr(GVariant) boxing = g_action_group_get_action_state(G_ACTION_GROUP(self), "box-select");
+  if (g_variant_get_boolean(boxing))
+    return _("Drag a box: to the right it takes what lies inside, to the left all that it touches; Escape gives up");
   g_autoptr(GVariant) present = g_action_group_get_action_state(G_ACTION_GROUP(self), "present");
   if (g_variant_get_boolean(present)) return _("F11 or Escape brings the panels back; F5 plays and pauses");
   SporeDocument *document = spore_editor_document_get(self->document);

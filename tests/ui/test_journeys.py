@@ -2726,6 +2726,56 @@ def port_moved_in_the_view():
 
 
 @check
+def cube_and_box():
+    """The cube in the corner says from where the scene is seen, in the letters of anatomy where a mesh came in a patient's axes; a click on a face, arrow keys and Ctrl with a digit look from there. A box drawn to the right takes the balls inside, to the left all that it touches; Escape gives the box up."""
+    path = two_balls("cube")
+    path.write_text(path.read_text().replace('file="ball.off"', 'file="ball.off" frame="RAS"'))
+    with start(path) as editor:
+        seen = lambda words: lambda: re.search(f"^Seen from {words}$", editor.find(".*", "^Axes of the scene").get_description() or "")
+        editor.drawn_view()
+        keep_picture(editor, "cube")
+        editor.act("view", "s", "top")
+        ui.wait(seen(r"superior \(Y\)"), "the head of the patient")
+        editor.act("view", "s", "front")
+        ui.wait(seen(r"posterior \(Z\)"), "the back of the patient")
+        editor.focus()
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        box = lambda *ends: (editor.mouse("mousemove", x + ends[0], y + ends[1], "mousedown", 1, "mousemove", x + (ends[0] + ends[2]) // 2, y + ends[1] + 5,
+                                          "mousemove", x + ends[2], y + ends[3]))
+        low, high = height // 2 - 140, height // 2 + 140
+        editor.act("box-select")
+        editor.find("label", "^Drag a box: to the right")
+        box(20, low, width // 2, high)  # to the right: the left ball alone lies in it
+        keep_picture(editor, "box")
+        editor.mouse("mouseup", 1)
+        ui.wait(lambda: not editor.state("box-select"), "the box to be over")
+        editor.find("label", "^left$")
+        editor.act("box-select")
+        editor.find("label", "^Drag a box: to the right")
+        box(width // 2 + 60, high, width // 2 - 60, low)
+        keep_picture(editor, "box-touches")
+        editor.mouse("mouseup", 1)
+        editor.find("label", "^2 bodies$")
+        editor.mouse("keydown", "ctrl", "keydown", "shift")
+        box(width // 2 + 60, high, width // 2 + 40, high - 20)
+        editor.mouse("key", "Escape")
+        editor.mouse("mouseup", 1, "keyup", "shift", "keyup", "ctrl")
+        editor.find("label", "^2 bodies$")
+        click(editor, (x + 40, y + height - 100))
+        editor.keys("ctrl+3")
+        ui.wait(seen(r"left \(−X\)"), "the left side")
+        editor.find(".*", "^Axes of the scene").grab_focus()
+        editor.keys("Left")
+        ui.wait(seen(r"anterior \(−Z\)"), "the side beyond the left edge")
+        editor.mouse("mousemove", x + 40, y + height - 100, "mousedown", 2, "mousemove_relative", "--", 40, 40, "mousemove_relative", "--", 40, 40, "mouseup", 2)
+        editor.drawn_view()
+        keep_picture(editor, "cube-turned")
+        cube = editor.place(editor.find(".*", "^Axes of the scene"))
+        click(editor, (cube[0] + cube[2] // 2, cube[1] + 14))
+        ui.wait(seen(r"superior \(Y\)"), "the upper face")
+
+
+@check
 def colours_show_the_state():
     """Colours shows strain of what is pushed, with a legend that the button says, and can keep its scale; a body without stress is named; own colours take nothing."""
     with start(SCENES / "table1-mass-spring.spore") as editor:

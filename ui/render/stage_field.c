@@ -19,10 +19,8 @@ const char *const spore_stage_field_names[] = {"none", "strain", "stress", "velo
 static const struct {
   const char *label;
   double least;
-} fields[SPORE_FIELD_COUNT] = {{NULL, 0},
-                               {N_("Largest strain (Green)"), 0.01},
-                               {N_("Stress, von Mises (Cauchy)"), 1},
-                               {N_("Speed"), 1e-3}};
+} fields[SPORE_FIELD_COUNT] = {
+    {NULL, 0}, {N_("Largest strain (Green)"), 0.01}, {N_("Stress, von Mises (Cauchy)"), 1}, {N_("Speed"), 1e-3}};
 
 /* Of a body, while colours are shown. */
 struct SporeStageShade {

@@ -83,12 +83,14 @@ static void move_port(SporeViewport *self) {
 void spore_viewport_end_drag(SporeViewport *self) {
   gboolean edits = self->drag == DRAG_EDIT && self->document, places = self->drag == DRAG_PLACE && self->document;
   gboolean gizmo = self->drag == DRAG_GIZMO && self->document, ports = self->drag == DRAG_PORT && self->document;
+  gboolean box = self->drag == DRAG_BOX && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
   if (gizmo) spore_viewport_gizmo_release(self, TRUE);
   if (edits) spore_viewport_edit_release(self, TRUE);
   if (places) spore_viewport_places_release(self, TRUE);
   if (ports) spore_viewport_ports_release(self, TRUE);
+  if (box) spore_viewport_box_release(self, TRUE);
 }
 
 static void abort_drag(SporeViewport *self) {
@@ -107,6 +109,10 @@ static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_PORT) {
     self->drag = DRAG_NONE;
     spore_viewport_ports_release(self, FALSE);
+  }
+  if (self->drag == DRAG_BOX) {
+    self->drag = DRAG_NONE;
+    spore_viewport_box_release(self, FALSE);
   }
   if (self->drag == DRAG_GIZMO) {
     self->drag = DRAG_NONE;
@@ -142,8 +148,10 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
     self->pressed_x = event->x, self->pressed_y = event->y;
     return;
   }
+  if (self->boxing && spore_viewport_box_press(self, event)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_ports_press(self, event->x, event->y)) return;
   if (spore_viewport_gizmo_press(self, event->x, event->y)) return;
+  if (spore_viewport_box_press(self, event)) return;
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && spore_viewport_hand_press(self)) return;
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
@@ -237,6 +245,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   case DRAG_GIZMO:
     spore_viewport_gizmo_motion(self, event->state);
     break;
+  case DRAG_BOX:
+    gtk_widget_queue_draw(area);
+    return GDK_EVENT_STOP;
   }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -287,6 +298,7 @@ static const struct {
     {GDK_KEY_r, "win.gizmo::scale"},
     {GDK_KEY_v, "win.second-view"},
     {GDK_KEY_k, "win.lock"},
+    {GDK_KEY_b, "win.box-select"},
 };
 
 guint spore_viewport_key_of(const char *action) {
@@ -295,9 +307,24 @@ guint spore_viewport_key_of(const char *action) {
   return 0;
 }
 
-/* FALSE: not its key. Digits of the keypad do the same as the others. */
+/* Digits of the keypad do the same as the others. */
+static guint digit_of(guint key) {
+  return key >= GDK_KEY_KP_0 && key <= GDK_KEY_KP_9 ? GDK_KEY_0 + key - GDK_KEY_KP_0 : key;
+}
+
+/* With Ctrl, keys of views look from the other side. FALSE: not such a key. */
+static gboolean look_from_other_side(GtkWidget *area, guint key) {
+  const char *view = digit_of(key) == GDK_KEY_1   ? "back"
+                     : digit_of(key) == GDK_KEY_3 ? "left"
+                     : digit_of(key) == GDK_KEY_7 ? "bottom"
+                                                  : NULL;
+  if (view) spore_activate(area, "view", g_variant_new_string(view));
+  return view != NULL;
+}
+
+/* FALSE: not its key. */
 static gboolean act_on(GtkWidget *area, guint key, gboolean presented) {
-  if (key >= GDK_KEY_KP_0 && key <= GDK_KEY_KP_9) key = GDK_KEY_0 + key - GDK_KEY_KP_0;
+  key = digit_of(key);
   for (gsize i = 0; i < G_N_ELEMENTS(keys); i++) {
     g_autofree char *action = NULL;
     g_autoptr(GVariant) target = NULL;
@@ -312,17 +339,22 @@ static gboolean act_on(GtkWidget *area, guint key, gboolean presented) {
 
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
   const guint modifiers = event->state & gtk_accelerator_get_default_mod_mask();
+  if (event->keyval == GDK_KEY_Escape && self->drag != DRAG_NONE) { /* keys of the drag may be down, too */
+    abort_drag(self);
+    return GDK_EVENT_STOP;
+  }
   if (modifiers == GDK_CONTROL_MASK && event->keyval == GDK_KEY_a) {
     spore_activate(area, "select-organs", NULL);
     return GDK_EVENT_STOP;
   }
+  if (modifiers == GDK_CONTROL_MASK && look_from_other_side(area, event->keyval)) return GDK_EVENT_STOP;
   if (modifiers) return GDK_EVENT_PROPAGATE;
   if (spore_viewport_gizmo_key(self, event->keyval) || spore_viewport_edit_key(self, event->keyval) ||
       spore_viewport_hand_key(self, event->keyval))
     return GDK_EVENT_STOP;
   switch (event->keyval) {
   case GDK_KEY_Escape:
-    if (self->drag != DRAG_NONE) abort_drag(self);
+    if (self->boxing) spore_activate(area, "box-select", NULL);
     else if (self->picking) spore_activate(area, "pick-back", NULL);
     else if (spore_viewport_measures_back(self)) break;
     else if (has_whole_screen(area)) spore_activate(area, "present", NULL);

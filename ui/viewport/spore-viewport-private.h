@@ -18,7 +18,8 @@ typedef enum {
   DRAG_EDIT,
   DRAG_PLACE,
   DRAG_GIZMO,
-  DRAG_PORT
+  DRAG_PORT,
+  DRAG_BOX
 } SporeDrag;
 
 /* The picture of a view. */
@@ -42,15 +43,16 @@ struct _SporeViewport {
   GtkRequisition pictures_size; /* pixels, while they are shown */
   GtkWidget *pictures;          /* of templates; NULL: none are set */
   GtkWidget *area, *foot, *template_button, *recent_button, *messages, *hud, *tools, *tool_row, *select_tool,
-      *lead_tool, *edit_tool, *look_row, *overlays, *colours_button, *measure_list, *welcome, *beginnings, *failure,
-      *link_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice, *foot_row, *second,
-      *second_area, *second_name, *large_name;
+      *lead_tool, *edit_tool, *look_row, *overlays, *axes, *colours_button, *measure_list, *welcome, *beginnings,
+      *failure, *link_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice, *foot_row,
+      *second, *second_area, *second_name, *large_name;
 
   SporeEditorDocument *document;
   SporePlayer *player;
   SporeViewportTool tool;
   SporeViewportHabits habits;
   gboolean picking;
+  gboolean boxing;      /* the next drag draws a box that selects */
   SporeVec3 anchors[2]; /* places that are picked so far */
   guint anchor_count;
   SporeVec3 outline[SPORE_OUTLINE_POINTS]; /* of an instrument that is being placed */
@@ -64,11 +66,13 @@ struct _SporeViewport {
   gboolean presented;
   gboolean figures; /* in the corner, those of an author, too */
 
-  SporeHandEdit edit;    /* of the Edit tool */
-  guint32 regions;       /* id of the object whose regions are edited; 0: spheres or a curve are edited */
-  gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
-  double edit_before[4]; /* the chosen sphere or point when the drag began */
-  guint edit_timer;      /* wheel notches that are not committed yet */
+  SporeHandEdit edit;       /* of the Edit tool */
+  guint32 regions;          /* id of the object whose regions are edited; 0: spheres or a curve are edited */
+  gboolean edit_resizes;    /* the drag moves the handle on the rim, else the one in the middle */
+  double edit_before[4];    /* the chosen sphere or point when the drag began */
+  guint edit_timer;         /* wheel notches that are not committed yet */
+  double axes_shown[3];     /* the camera's azimuth, elevation and roll, as the cube shows them */
+  const char *pointed_view; /* of the face of the cube under the pointer; NULL: none */
   SporeGizmo gizmo;
   int gizmo_axis;            /* of the drag: 0 to 2, or 3: free */
   SporePlacement *placement; /* what the drag moves */
@@ -201,6 +205,19 @@ gboolean spore_viewport_ports_press(SporeViewport *self, double x, double y); /*
 /* body: what the cursor meets, at that place of the scene; 0: nothing. */
 void spore_viewport_ports_motion(SporeViewport *self, guint32 body, SporeVec3 surface);
 void spore_viewport_ports_release(SporeViewport *self, gboolean keep);
+
+/* spore-viewport-box.c: a box that selects. */
+gboolean spore_viewport_box_press(SporeViewport *self, const GdkEventButton *event); /* FALSE: none is asked for */
+void spore_viewport_box_release(SporeViewport *self, gboolean keep);
+void spore_viewport_box_draw(SporeViewport *self, cairo_t *cr);
+
+/* spore-viewport-axes.c: the cube in the corner; signal handlers of its drawing area. */
+gboolean spore_viewport_draw_axes(GtkWidget *axes, cairo_t *cr, SporeViewport *self);
+gboolean spore_viewport_axes_press(GtkWidget *axes, GdkEventButton *event, SporeViewport *self);
+gboolean spore_viewport_axes_point(GtkWidget *axes, GdkEvent *event, SporeViewport *self);
+gboolean spore_viewport_axes_key(GtkWidget *axes, GdkEventKey *event, SporeViewport *self);
+/* Draws the cube again where the camera has turned, and tells where the scene is seen from. */
+void spore_viewport_tell_axes(SporeViewport *self);
 
 /* spore-viewport-edit.c: the Edit tool. */
 /* Shows what the selection offers to edit. */

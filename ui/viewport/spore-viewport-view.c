@@ -191,11 +191,16 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
     spore_viewport_redraw(self);
     return;
   }
-  gboolean right = g_str_equal(view, "right"), top = g_str_equal(view, "top");
+  static const struct {
+    const char *view;
+    double azimuth, elevation; /* rad */
+  } views[] = {{"front", 0, 0},      {"back", G_PI, 0},         {"right", G_PI_2, 0},
+               {"left", -G_PI_2, 0}, {"top", 0, 0.99 * G_PI_2}, {"bottom", 0, -0.99 * G_PI_2}};
   spore_viewport_leave_scene_camera(self);
   self->strayed = FALSE;
-  self->camera.azimuth = right ? G_PI_2 : 0;
-  self->camera.elevation = top ? G_PI_2 * 0.99 : 0;
+  for (gsize i = 0; i < G_N_ELEMENTS(views); i++)
+    if (g_str_equal(views[i].view, view))
+      self->camera.azimuth = views[i].azimuth, self->camera.elevation = views[i].elevation;
   spore_viewport_redraw(self);
 }
 

@@ -97,7 +97,9 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   spore_viewport_places_draw(self, cr);
   spore_viewport_gizmo_draw(self, cr);
   spore_viewport_measures_draw(self, cr);
+  spore_viewport_box_draw(self, cr);
   self->camera = now;
+  spore_viewport_tell_axes(self);
   return FALSE;
 }
 
@@ -134,6 +136,7 @@ static gboolean place_overlays(gpointer data) {
   gtk_widget_set_margin_top(self->overlays, top);
   spore_viewport_size_second(self);
   gtk_widget_get_preferred_height(self->overlays, NULL, &height); /* with its margins */
+  gtk_widget_set_margin_top(self->axes, height - margin);
   spore_viewport_fit_welcome(self, height);
   return G_SOURCE_REMOVE;
 }
@@ -257,8 +260,18 @@ void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
   gtk_widget_set_visible(self->notice, presented);
   gtk_label_set_max_width_chars(GTK_LABEL(self->hud), presented ? HUD_BESIDE_CONTROLS : HUD_CHARS);
   gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
+  gtk_widget_set_visible(self->axes, !presented);
   spore_viewport_ports_refresh(self);
   spore_viewport_redraw(self);
+}
+
+void spore_viewport_set_boxing(SporeViewport *self, gboolean boxing) {
+  spore_viewport_end_drag(self);
+  self->boxing = boxing;
+  GdkWindow *window = gtk_widget_get_window(self->area);
+  g_autoptr(GdkCursor) cross =
+      boxing ? gdk_cursor_new_from_name(gtk_widget_get_display(self->area), "crosshair") : NULL;
+  if (window) gdk_window_set_cursor(window, cross);
 }
 
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
@@ -368,6 +381,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, edit_tool);
   gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
   gtk_widget_class_bind_template_child(widget, SporeViewport, colours_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, axes);
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_list);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);

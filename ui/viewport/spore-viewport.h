@@ -73,6 +73,9 @@ gboolean spore_viewport_edits_regions(SporeViewport *self);
 gboolean spore_viewport_has_ports(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */
 gboolean spore_viewport_has_edited(SporeViewport *self);
+/* While boxing, the next drag draws a box that selects bodies; when it ends, or is given up, win.box-select is toggled.
+ */
+void spore_viewport_set_boxing(SporeViewport *self, gboolean boxing);
 /* While picking, a click of the left button, or the space bar for the middle of the view, emits "picked" instead of
  * selecting. */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
