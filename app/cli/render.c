@@ -18,7 +18,7 @@ typedef struct RenderOptions {
   char *size, *output, *camera, *time, *beside, *clip, *reach, *field, *field_end;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
-  gboolean spheres, tetrahedra;
+  gboolean spheres, tetrahedra, light;
   SporeSceneOptions scene;
 } RenderOptions;
 
@@ -118,6 +118,7 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                             .camera = options->camera,
                             .ports = options->reach,
                             .shown = {.surfaces = TRUE, .spheres = options->spheres, .tetrahedra = options->tetrahedra},
+                            .light = options->light,
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
   for (gsize i = 0; kind == SPORE_REEL_PICTURE && i < G_N_ELEMENTS(of_films); i++)
@@ -299,6 +300,8 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"clip", 0, 0, G_OPTION_ARG_STRING, &options.clip,
        N_("Hide what lies beyond a plane: further along the direction NX,NY,NZ than D metres from the origin"),
        "NX,NY,NZ,D"},
+      {"light", 0, 0, G_OPTION_ARG_NONE, &options.light, N_("Draw the room around the scene light, as for print"),
+       NULL},
       {"reach", 0, 0, G_OPTION_ARG_STRING, &options.reach,
        N_("Show what is reached through this port, or through all of them (all): cones, and what none reaches in blue"),
        "PORT"},

@@ -10,6 +10,7 @@ layout(std140) uniform Frame {
   vec4 clip_plane; // view space: hides what lies where this is above 0; zeros hide nothing
   vec4 tint;       // colour of what no cone reaches; w: number of cones, 0: nothing is tinted
   vec4 lens;       // its distortion; shares that blood and water cover; that haze takes from the target's light
+  vec4 backdrop;   // 1: light; 0: dark
   vec4 cone_pivot[32], cone_along[32], cone_limits[32]; // view space; limits: cosine of the angle, least and most, m
 };
 

@@ -1228,6 +1228,8 @@ def render_makes_a_picture():
     whole = picture.read_bytes()
     spore("render", SCENES / "minimal.spore", "-o", picture, "--size", "320x200", "--clip", "0,2,0,0.06", env=environment)
     assert picture.read_bytes() != whole, "the ball is cut in half"
+    spore("render", SCENES / "minimal.spore", "-o", picture, "--size", "320x200", "--light", env=environment)
+    assert picture.read_bytes() != whole, "the room is light"
     refuses("render", SCENES / "minimal.spore", says=["-o"])
     refuses("render", SCENES / "minimal.spore", "-o", "no/such/folder/x.png", says=["no/such/folder"])
 

@@ -3,10 +3,16 @@
  */
 #include <string.h>
 
+#include "core/author/generator.h"
+#include "core/io/scene_xml.h"
+#include "models/registry.h"
 #include "tests/render/scenery.h"
+#include "ui/render/stage.h"
 
 #define MEAN_TOLERANCE 1.5 /* of 255 */
 #define PERCENTILE_TOLERANCE 20.0
+#define PLATE_WIDTH 224
+#define PLATE_HEIGHT 140
 
 static const SporeSurfaceStyle tissue = {{0.45f, 0.09f, 0.075f}, 0.8f, FALSE, FALSE, FALSE};
 
@@ -132,6 +138,50 @@ static void test_shadow_between_bodies(void) {
   draw_and_check(&bench, "shadow", TRUE, FALSE);
 }
 
+/* The plates of the paper, as the shipped scenes show them after so many steps: in the dark in full quality, in a light
+ * room as fast as the editor draws them. */
+static const struct {
+  const char *name;
+  guint steps;
+} plates[] = {{"plate1-ovary", 1},  {"plate2-tissue", 1},    {"plate3-blood", 60},  {"plate4-deformed-ovary", 1},
+              {"plate5-string", 1}, {"plate6-intestine", 1}, {"plate7-steam", 400}, {"plate8-clamp", 1}};
+
+static void check_plate(const Bench *bench, SporeSchema *schema, const char *name, guint steps) {
+  GError *error = NULL;
+  g_autofree char *file = g_strdup_printf("%s/%s.spore", SPORE_SCENES, name);
+  SporeDocument *document = spore_scene_load(schema, file, &error);
+  g_assert_no_error(error);
+  g_autoptr(SporeSimulation) simulation = spore_simulation_new(document, NULL, NULL, NULL, &error);
+  g_assert_no_error(error);
+  SporeStage *stage = spore_stage_new(bench->renderer, document);
+  spore_stage_rebuild(stage, simulation);
+  for (guint i = 0; i < steps; i++) spore_world_step(simulation->world);
+  spore_stage_update(stage, spore_world_snapshot_acquire(simulation->world));
+  for (int light = 0; light < 2; light++) {
+    SporeCamera camera;
+    SporeRenderOptions options = {
+        .width = PLATE_WIDTH, .height = PLATE_HEIGHT, .antialias = !light, .light = light != 0};
+    Picture picture = {PLATE_WIDTH, PLATE_HEIGHT, g_malloc(4 * PLATE_WIDTH * PLATE_HEIGHT)};
+    g_autofree char *golden = g_strdup_printf("%.6s_%s", name, light ? "light" : "dark");
+    spore_stage_camera(stage, NULL, (double)PLATE_WIDTH / PLATE_HEIGHT, &camera, &error);
+    if (light) camera.distance *= 3; /* beyond the wall of the pelvis the room is seen */
+    spore_renderer_draw(bench->renderer, &camera, &options, picture.pixels, 4 * PLATE_WIDTH, &error);
+    g_assert_no_error(error);
+    check_golden(golden, &picture);
+    picture_clear(&picture);
+  }
+  spore_stage_free(stage);
+  spore_document_free(document);
+}
+
+static void test_plates(void) {
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
+  Bench bench = bench_open();
+  for (guint i = 0; i < G_N_ELEMENTS(plates); i++) check_plate(&bench, schema, plates[i].name, plates[i].steps);
+  bench_close(&bench);
+  spore_schema_free(schema);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/golden/tissue-fast", test_tissue_fast);
@@ -141,6 +191,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/golden/smoke-fast", test_smoke_fast);
   g_test_add_func("/render/golden/smoke-full", test_smoke_full);
   g_test_add_func("/render/golden/lens", test_lens);
+  g_test_add_func("/render/golden/plates", test_plates);
   g_test_add_func("/render/golden/shadow", test_shadow_between_bodies);
   return g_test_run();
 }

@@ -67,7 +67,7 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
                            GError **error) {
   SporePanes *panes = spore_panes_new(filming->width, filming->height, error);
   gboolean done = panes != NULL;
-  if (done) spore_panes_set_clip(panes, &filming->clip);
+  if (done) spore_panes_set_clip(panes, &filming->clip), spore_panes_set_light(panes, filming->light);
   for (guint i = 0; done && i < filming->count; i++)
     done =
         spore_panes_add(panes, filming->documents[i], filming->simulations[i], filming->camera, &filming->shown, error);

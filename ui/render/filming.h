@@ -17,6 +17,7 @@ typedef struct SporeFilming {
   const char *camera;      /* NULL: see spore_stage_camera */
   SporeStageOptions shown; /* what is drawn */
   SporeClip clip;          /* what is hidden */
+  gboolean light;          /* the room, see SporeRenderOptions */
   const char *ports;       /* whose reach is shown, see spore_stage_find_ports; NULL: none */
   guint count;             /* of simulations, at most SPORE_FILMING_MOST: at time 0, borrowed, and run to the end */
   SporeDocument *documents[SPORE_FILMING_MOST];

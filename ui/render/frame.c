@@ -7,6 +7,7 @@
 #include "core/math/colour.h"
 
 #define VIGNETTE 0.62f
+#define LIGHT_VIGNETTE 0.15f
 
 /* Depth range, m along the view, of everything visible. */
 static void depth_range(GPtrArray *drawables, SporeVec3 eye, SporeVec3 forward, double *near, double *far) {
@@ -112,7 +113,8 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const Spo
   block->light[0] = (float)(-0.30 * distance), block->light[1] = (float)(0.42 * distance);
   block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
-  block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
+  block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = options->light ? LIGHT_VIGNETTE : VIGNETTE;
+  block->room[0] = options->light ? 1 : 0;
   block->lens[0] = (float)camera->distortion, block->lens[1] = (float)camera->blood;
   block->lens[2] = (float)camera->water, block->lens[3] = (float)camera->haze;
   set_clip(frame, &options->clip, right, up, forward);

@@ -15,6 +15,7 @@ typedef struct Pane {
 struct SporePanes {
   int width, height; /* of a pane */
   SporeClip clip;
+  gboolean light;
   SporeOffscreen *offscreen;
   GPtrArray *row; /* of Pane */
   guint8 *pixels; /* of all panes */
@@ -39,6 +40,8 @@ SporePanes *spore_panes_new(int width, int height, GError **error) {
 }
 
 void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip) { panes->clip = *clip; }
+
+void spore_panes_set_light(SporePanes *panes, gboolean light) { panes->light = light; }
 
 void spore_panes_free(SporePanes *panes) {
   if (!panes) return;
@@ -91,7 +94,7 @@ const char *spore_panes_renderer(const SporePanes *panes) { return spore_offscre
 
 const guint8 *spore_panes_draw(SporePanes *panes, GError **error) {
   const SporeRenderOptions how = {
-      .width = panes->width, .height = panes->height, .antialias = TRUE, .clip = panes->clip};
+      .width = panes->width, .height = panes->height, .antialias = TRUE, .light = panes->light, .clip = panes->clip};
   gsize stride = (gsize)spore_panes_width(panes) * 4;
   for (guint i = 0; i < panes->row->len; i++) {
     Pane *pane = panes->row->pdata[i];

@@ -11,6 +11,7 @@ typedef struct SporePanes SporePanes;
 SporePanes *spore_panes_new(int width, int height, GError **error);
 /* What is hidden in all of them; at first nothing is. */
 void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip);
+void spore_panes_set_light(SporePanes *panes, gboolean light); /* see SporeRenderOptions */
 /* Shows what is reached through the ports of that name, see spore_stage_find_ports, in all simulations that are there.
  * FALSE with a GError: there is no such port. */
 gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **error);

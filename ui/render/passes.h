@@ -60,7 +60,7 @@ enum {
 
 /* What all shaders know; laid out as the uniform block `Frame` (std140). */
 typedef struct SporeFrameBlock {
-  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4], tint[4], lens[4];
+  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4], clip[4], tint[4], lens[4], room[4];
   float pivot[SPORE_CONES_MOST][4], along[SPORE_CONES_MOST][4], limits[SPORE_CONES_MOST][4];
 } SporeFrameBlock;
 

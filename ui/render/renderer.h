@@ -106,6 +106,7 @@ typedef struct SporeRenderOptions {
   int width, height;
   gboolean grid; /* floor grid and axes: editing; off for pictures. Never clipped */
   gboolean antialias;
+  gboolean light; /* the room around the scene, as for print; else dark, as a body is */
   SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;
 /* A software driver compiles a program when it first draws with it, for a hundred times as long as it draws: makes
