@@ -153,6 +153,13 @@ static void test_prepared_on_a_thread(void) {
   const SporeCamera camera = straight_camera(0.3);
   spore_renderer_add_spheres(plain.renderer, sphere, 1, red, NULL, TRUE);
   spore_renderer_add_spheres(prepared.renderer, sphere, 1, red, NULL, TRUE);
+  SporeTriangleMesh organ = make_organ(0.02);
+  const SporeSurfaceStyle style = {.colour = {0.5f, 0.1f, 0.1f}, .wetness = 0.5f};
+  spore_renderer_add_surface(plain.renderer, organ.vertices, organ.vertex_count, organ.triangles, organ.triangle_count,
+                             &style);
+  spore_renderer_add_surface(prepared.renderer, organ.vertices, organ.vertex_count, organ.triangles,
+                             organ.triangle_count, &style);
+  spore_triangle_mesh_clear(&organ);
   Picture expected = draw_picture(plain.renderer, &camera, 64, 64, FALSE, TRUE),
           found = draw_picture(prepared.renderer, &camera, 64, 64, FALSE, TRUE);
   g_assert_cmpmem(found.pixels, 64 * 64 * 4, expected.pixels, 64 * 64 * 4);
