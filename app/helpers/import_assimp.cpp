@@ -268,7 +268,8 @@ void end_part(const aiScene &scene, const aiNode &node, const Request &request, 
   mesh.parts.push_back(part);
 }
 
-void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh) {
+/* said: how the material moves and repeats its picture; nullptr: not at all. */
+void append_faces(const aiMesh &from, uint64_t first, bool mirrored, const SporeImportMaterial *said, Mesh &mesh) {
   for (unsigned f = 0; f < from.mNumFaces; f++) {
     const aiFace &face = from.mFaces[f];
     if (face.mNumIndices != 3) {
@@ -285,7 +286,9 @@ void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh)
                           std::to_string(from.mNumVertices)};
       mesh.triangles.push_back(static_cast<uint32_t>(first + index));
       if (!mesh.placed) continue;
-      const aiVector3D place = from.HasTextureCoords(0) ? from.mTextureCoords[0][index] : aiVector3D(0, 1, 0);
+      aiVector3D place = from.HasTextureCoords(0) ? from.mTextureCoords[0][index] : aiVector3D(0, 1, 0);
+      if (said)
+        place.x = place.x * said->scale[0] + said->offset[0], place.y = place.y * said->scale[1] + said->offset[1];
       mesh.places.insert(mesh.places.end(), {place.x, 1 - place.y}); /* the importer counts from below */
     }
   }
@@ -308,7 +311,7 @@ void append(const aiScene &scene, const aiNode &node, const Request &request, co
       const aiVector3D p = transform * from.mVertices[v];
       mesh.vertices.insert(mesh.vertices.end(), {p.x, p.y, p.z});
     }
-    append_faces(from, first, mirrored, mesh);
+    append_faces(from, first, mirrored, request.worn ? nullptr : described(scene, from, request), mesh);
   }
   end_part(scene, node, request, group, mesh);
   const std::string name = name_of(node.mName);

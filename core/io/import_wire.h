@@ -18,10 +18,11 @@ typedef struct SporeImportRequest {
 
 /* A material of OBJ, which is described in a file beside the mesh. */
 typedef struct SporeImportMaterial {
-  float colour[3];   /* sRGB from 0 to 1; used where coloured */
-  uint32_t coloured; /* the file says the colour */
-  uint32_t picture;  /* number of the picture from 1; 0: it wears none */
-  char name[128];    /* cut to fit */
+  float colour[3];           /* sRGB from 0 to 1; used where coloured */
+  uint32_t coloured;         /* the file says the colour */
+  uint32_t picture;          /* number of the picture from 1; 0: it wears none */
+  float scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
+  char name[128];            /* cut to fit */
 } SporeImportMaterial;
 
 /* A picture in a file beside the mesh. */

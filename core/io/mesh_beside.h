@@ -15,9 +15,10 @@ typedef struct SporeMeshPicture {
 /* A material of OBJ. */
 typedef struct SporeMeshMaterial {
   char *name;
-  double colour[3]; /* sRGB, 0 to 1 */
-  bool coloured;    /* the file says the colour */
-  guint picture;    /* number in `pictures`, from 1; 0: none */
+  double colour[3];           /* sRGB, 0 to 1 */
+  bool coloured;              /* the file says the colour */
+  guint picture;              /* number in `pictures`, from 1; 0: none */
+  double scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
 } SporeMeshMaterial;
 
 typedef struct SporeMeshBeside {

@@ -182,6 +182,7 @@ static gboolean read_answer(const Given *given, GBytes *answer, Raw *raw, GError
 static void append_material(GByteArray *request, const SporeMeshMaterial *from) {
   SporeImportMaterial material = {.coloured = from->coloured, .picture = from->picture};
   for (int k = 0; k < 3; k++) material.colour[k] = (float)from->colour[k];
+  for (int k = 0; k < 2; k++) material.scale[k] = (float)from->scale[k], material.offset[k] = (float)from->offset[k];
   g_strlcpy(material.name, from->name, sizeof material.name);
   g_byte_array_append(request, (const guint8 *)&material, sizeof material);
 }

@@ -1,4 +1,5 @@
 /* Materials of OBJ, which lie in a text beside it (Wavefront's "Object Files" and MTL, as Alias wrote them down). */
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -8,6 +9,7 @@
 
 #define MOST_BYTES ((gsize)16 << 20) /* of a text of materials */
 #define MOST_MATERIALS 10000u
+#define MOST_MOVED 1e6 /* pictures */
 
 /* Options of map_Kd and the words behind them; of the last three up to that many numbers. */
 static const struct {
@@ -47,11 +49,22 @@ static gboolean is_number(const char *text) {
   return end != text && (!*end || g_ascii_isspace(*end));
 }
 
-/* The name of the picture behind its options, which move or filter the picture and are passed over. */
-static const char *behind_options(const char *text) {
+/* The numbers of an option, up to two; what is not said, or is none, stays. */
+static void read_pair(const char *text, gboolean scales, double pair[2]) {
+  for (int k = 0; k < 2 && is_number(text); k++, text = behind_word(text)) {
+    double number = g_ascii_strtod(text, NULL);
+    if (isfinite(number) && fabs(number) <= MOST_MOVED && (number != 0 || !scales)) pair[k] = number;
+  }
+}
+
+/* The name of the picture behind its options. Those that move and repeat the picture are taken, and those that filter
+ * it are passed over. */
+static const char *behind_options(const char *text, SporeMeshMaterial *material) {
   for (gsize i = 0; *text == '-' && i < G_N_ELEMENTS(options); i++) {
     const char *rest = behind(text, options[i].name);
     if (!rest) continue;
+    if (strcmp(options[i].name, "-s") == 0) read_pair(rest, TRUE, material->scale);
+    if (strcmp(options[i].name, "-o") == 0) read_pair(rest, FALSE, material->offset);
     for (int word = 0; word < options[i].words && (options[i].words < 3 || is_number(rest)); word++)
       rest = behind_word(rest);
     text = rest;
@@ -99,11 +112,12 @@ static void read_line(SporeMeshBeside *beside, const char *file, const char *fol
   if (name && beside->materials->len < MOST_MATERIALS) {
     *material = g_new0(SporeMeshMaterial, 1);
     (*material)->name = g_strdup(name);
+    (*material)->scale[0] = (*material)->scale[1] = 1;
     g_ptr_array_add(beside->materials, *material);
   }
   if (colour && *material) read_colour(*material, colour);
   if (!picture || !*material) return;
-  g_autofree char *named = path_of(behind_options(picture)), *path = g_strconcat(folder, named, NULL);
+  g_autofree char *named = path_of(behind_options(picture, *material)), *path = g_strconcat(folder, named, NULL);
   (*material)->picture = spore_mesh_beside_picture(beside, file, path, path);
   take_white(*material);
 }

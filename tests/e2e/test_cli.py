@@ -453,6 +453,15 @@ def import_takes_pictures_beside_the_mesh():
     assert len(kept) == len(expected)
     assert all(min(abs(k[0] - e[0]) + abs(k[1] - e[1]) for e in expected) < 1e-4 for k in kept[::29])
     assert all(max(u for u, v in kept[i:i + 3]) - min(u for u, v in kept[i:i + 3]) < 0.2 for i in range(0, len(kept), 3))
+    file("obj/worn.mtl", described("-s 2 3 -o 0.25 -0.5 0 pictures\\skin a.png"))  # repeated and moved, counted from below
+    spore("import", "obj/worn.obj", "-o", "obj/moved/a.spore")
+    moved = [float(word) for word in (WORK / "obj/moved" / visual_of("obj/moved/a.spore").get("texture_places")).read_text().split()[2:]]
+    wanted = [at for u, v in kept for at in (2 * u + 0.25, 1 - (3 * (1 - v) - 0.5))]
+    assert len(moved) == len(wanted) and all(abs(a - b) < 1e-4 for a, b in zip(moved, wanted)), (moved[:6], wanted[:6])
+    file("obj/other.png", shapes.png(8, 8, lambda x, y: (0, 0, 16 * y)))
+    file("obj/worn.mtl", "newmtl skin\nmap_Kd pictures/skin a.png\nnewmtl fat\nmap_Kd other.png\n")
+    found = report("import", "obj/worn.obj", "-o", "obj/two/a.spore")["diagnostics"]
+    assert [d["place"] for d in found if "different pictures" in d["message"] and "a mesh of its own" in d["remedy"]] == ["worn"], found
     (WORK / "link.png").write_bytes(picture)
     (WORK / "obj/link.png").symlink_to(WORK / "link.png")
     for path, words in (("none.png", "not there"), ("../link.png", "same folder or below"), (f"{WORK}/link.png", "same folder or below"),
