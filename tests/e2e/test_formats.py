@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Scenes exported into files that other programs open. test_formats.py SPORE SCENES FEATURES [MUJOCO_PROBE]"""
+"""Scenes exported into files that other programs open. test_formats.py SPORE SCENES FEATURES KIND [MUJOCO_PROBE]"""
 import array
 import csv
 import json
@@ -19,11 +19,11 @@ from xml.etree import ElementTree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
 import vtk_files
-from tap import Skip, check, long_run, main, wait_for_work
+from tap import Skip, alike, check, long_run, main, wait_for_work
 
 SPORE, SCENES, FEATURES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3].split(",")
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-formats-"))
-PROBE = sys.argv[4] if len(sys.argv) > 4 else None
+PROBE = sys.argv[5] if len(sys.argv) > 5 else None
 PYTHON = "/usr/bin/python3"  # Debian's, which sees Debian's VTK
 
 
@@ -59,6 +59,7 @@ def watched(scene, time, every, points, *options):
 
 
 @check
+@alike
 def a_series_is_where_the_run_is(*_):
     """Points of a VTK series are where spore run has them, at each moment, to rounding"""
     for scene, bodies in [("minimal", ["ball"]), ("plate4-deformed-ovary", ["ovary_right", "probe"]), ("plate5-string", ["string"]),
@@ -135,6 +136,7 @@ print(json.dumps(said))
 
 
 @check
+@alike
 def vtk_reads_every_shipped_scene(*_):
     """Debian's VTK reads the series of every shipped scene, and finds the same points and elements as a parser of our own"""
     if subprocess.run([PYTHON, "-c", "import vtk"], capture_output=True, check=False).returncode:
@@ -204,6 +206,7 @@ def ply_mesh(file):
 
 
 @check
+@alike
 @long_run
 def surfaces_are_those_of_the_series(*_):
     """OBJ, PLY and STL hold the surfaces of the same moment in the VTK series, with names and colours as far as they can"""
@@ -261,6 +264,7 @@ def surfaces_come_back_by_import(*_):
 
 
 @check
+@alike
 def bodies_without_a_mesh_are_balls_tubes_and_skins(*_):
     """What has no mesh is drawn as the editor does: spheres as balls, a line as a tube, a liquid as its skin, smoke not at all"""
     shutil.copytree(SCENES / "minimal", FOLDER / "own" / "minimal")
@@ -356,6 +360,7 @@ class Film:
 
 
 @check
+@alike
 @long_run
 def a_film_moves_as_the_series(*_):
     """glTF: at each moment of the VTK series every body is within the error that is told, and rigid ones are where they were"""
@@ -509,6 +514,7 @@ def mujoco_holds_ball_joints(*_):
 
 
 @check
+@alike
 def mujoco_runs_rigid_bodies(*_):
     """MJCF: Debian's MuJoCo loads every shipped scene; mass, inertia, springs and motion of rigid bodies are those of SPORE"""
     if not PROBE:
@@ -591,6 +597,7 @@ def sofa_has_the_masses_and_stiffnesses_of_the_scene(*_):
 
 
 @check
+@alike
 def sofa_holds_or_names_every_body(*_):
     """SOFA: of scenes with every kind of body, each body is in the file or said to be lost"""
     known = set()
@@ -669,6 +676,7 @@ def tree():
 
 
 @check
+@alike
 def whole_or_not_at_all(*_):
     """A full disk, Ctrl-C and SIGTERM leave what was there, and nothing else"""
     export("minimal", "vtk", FOLDER / "whole", "--time", "0.01", "--every", "0.01")
@@ -689,6 +697,6 @@ def whole_or_not_at_all(*_):
 
 
 try:
-    main()
+    main(kind=sys.argv[4])
 finally:
     shutil.rmtree(FOLDER, ignore_errors=True)

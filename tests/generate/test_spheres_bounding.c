@@ -5,6 +5,7 @@
 #include "core/generate/spheres/bounding.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
+#include "tests/sanitized.h"
 
 static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, SporeSpheresReport *report) {
   return make_set(mesh, (SporeSpheresOptions){.mode = SPORE_SPHERES_BOUNDING, .count = count, .seed = 1}, report);
@@ -145,7 +146,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres-bounding/ball", test_ball);
   g_test_add_func("/generate/spheres-bounding/torus", test_torus);
   g_test_add_func("/generate/spheres-bounding/many", test_many);
-  g_test_add_func("/generate/spheres-bounding/capsule-chain", test_capsule_chain);
+  if (!tests_sanitized) g_test_add_func("/generate/spheres-bounding/capsule-chain", test_capsule_chain);
   g_test_add_func("/generate/spheres-bounding/shell", test_shell);
   g_test_add_func("/generate/spheres-bounding/hollow", test_hollow);
   g_test_add_func("/generate/spheres-bounding/symmetry", test_symmetry);

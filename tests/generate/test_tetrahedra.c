@@ -184,9 +184,26 @@ static void add_tests(void) {
   g_test_add_func("/tetrahedra/progress", test_progress);
 }
 
+/* Where pieces lie in one another, the chain does not try what cannot make one solid of them. */
+static void test_mixed(void) {
+  SporeTriangleMesh organ = {0}, vessel = {0};
+  shape_ball(&organ, 0.03, 8);
+  shape_capsule(&vessel, 0.008, 0.03, 6);
+  shape_move(&vessel, 0, 0, 0.04);
+  shape_append(&organ, &vessel);
+  spore_triangle_mesh_clear(&vessel);
+  SporeTetrahedraOptions options = {CHAIN, .cells = 500, .tolerance = 0.06};
+  Result result = fill(&organ, options, "wrapped");
+  const char *refused = result.report.refused[SPORE_TETRAHEDRA_REPAIRED];
+  g_assert_nonnull(strstr(refused, SPORE_HAVE_CGAL ? "lie in one another" : "CGAL"));
+  check_cells(&result, 500);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (SPORE_HAVE_CGAL) add_tests();
   g_test_add_func("/tetrahedra/refused", test_refused);
+  g_test_add_func("/tetrahedra/mixed", test_mixed);
   return g_test_run();
 }

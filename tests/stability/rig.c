@@ -12,15 +12,9 @@ static void free_set(gpointer set) {
   g_free(set);
 }
 
-#ifdef __SANITIZE_ADDRESS__
-const bool rig_sanitized = true;
-#else
-const bool rig_sanitized = false;
-#endif
-
 unsigned rig_steps(unsigned whole, unsigned part) {
-  if (rig_sanitized) g_test_message("under sanitizers: %u steps of %u", part, whole);
-  return rig_sanitized ? part : whole;
+  if (tests_sanitized) g_test_message("under sanitizers: %u steps of %u", part, whole);
+  return tests_sanitized ? part : whole;
 }
 
 Rig *rig_new(void) {

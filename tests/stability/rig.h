@@ -5,6 +5,7 @@
 #include "core/sim/world.h"
 #include "models/registry.h"
 #include "tests/conformance/shapes.h"
+#include "tests/sanitized.h"
 
 typedef struct Rig {
   GArray *bodies, *links; /* SporeBodyDescription, SporeLinkDescription: may be changed until rig_build */
@@ -15,9 +16,6 @@ typedef struct Rig {
   SporeWorld *world;
 } Rig;
 
-/* Whether sanitizers look for wrong memory accesses, which takes ten times as long and more: then a part of a long test
- * that comes by all the code is enough. The run without them judges the whole. */
-extern const bool rig_sanitized;
 /* Steps of a long run: the part under sanitizers, said. */
 unsigned rig_steps(unsigned whole, unsigned part);
 

@@ -129,7 +129,7 @@ static Spread spread_of(double temperature, double thermostat) {
 /* Blood that is kept warm runs down as a layer whose particles change places. Blood that sets slides as a lump. */
 static void test_slope(void) {
   Spread liquid = spread_of(0.7, 200), lump = spread_of(0, 0);
-  if (rig_sanitized) return;
+  if (tests_sanitized) return;
   g_assert_cmpfloat(liquid.along, >, 1.5 * lump.along);
   g_assert_cmpfloat(liquid.height, <, lump.height);
   g_assert_cmpfloat(liquid.kept, <, 0.5);

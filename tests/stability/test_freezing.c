@@ -7,8 +7,8 @@
 #include "tests/stability/rig.h"
 #include "tests/stability/scene.h"
 
-static unsigned warm_steps(void) { return rig_sanitized ? 2 : 25; } /* until bodies touch */
-static unsigned more_steps(void) { return rig_sanitized ? 2 : 10; }
+static unsigned warm_steps(void) { return tests_sanitized ? 2 : 25; } /* until bodies touch */
+static unsigned more_steps(void) { return tests_sanitized ? 2 : 10; }
 
 /* Gives all blocks of the body this velocity. */
 static void set_speed(SporeWorld *world, uint32_t b, double speed) {
@@ -115,7 +115,7 @@ static void test_each(gconstpointer data) {
     if (i > 0) start_again(world, &warm);
     break_bodies(world, &bodies[i], 1, FALSE, NAN);
     thaw(world, bodies[i]);
-    if (rig_sanitized && i > 0) continue; /* what is thrown out so fast takes long to recover */
+    if (tests_sanitized && i > 0) continue; /* what is thrown out so fast takes long to recover */
     start_again(world, &warm);
     break_bodies(world, &bodies[i], 1, FALSE, 2 * world->solver.maximum_speed);
   }

@@ -110,7 +110,7 @@ static void case_37(void) {
 
 static void case_37_fine(void) {
   Case bar = {&spore_neo_hookean_tetrahedra, 20, 0.49999, G};
-  if (rig_sanitized) return g_test_skip("a long run, of the code that the others run");
+  if (tests_sanitized) return g_test_skip("a long run, of the code that the others run");
   g_assert_cmpfloat(fabs(balanced_tip(&bar) / REFERENCE - 1), <, 0.01);
 }
 

@@ -90,13 +90,13 @@ static void test_step(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(integrators); i++)
     for (int linear = SPORE_LINEAR_CONJUGATE_GRADIENTS; linear <= SPORE_LINEAR_CHOLESKY; linear++) {
       unsigned asked;
-      if (rig_sanitized && integrators[i] == SPORE_INTEGRATOR_STATIC && linear == SPORE_LINEAR_CHOLESKY) continue;
+      if (tests_sanitized && integrators[i] == SPORE_INTEGRATOR_STATIC && linear == SPORE_LINEAR_CHOLESKY) continue;
       uint64_t expected = run_uncancelled(integrators[i], linear, STEPS, &asked);
       g_test_message("%s, %s: asked %u times in the first step", spore_integrator_names[integrators[i]],
                      spore_linear_names[linear], asked);
       g_assert_cmpuint(asked, >, 20);
       unsigned parts = integrators[i] != SPORE_INTEGRATOR_STATIC ? 8
-                       : rig_sanitized                           ? 1
+                       : tests_sanitized                         ? 1
                                                                  : 2; /* its load steps take long */
       for (unsigned part = 0; part <= parts; part++)
         cancel_at(integrators[i], linear, 1 + part * (asked - 1) / parts, expected);
@@ -194,8 +194,8 @@ static SporeCurve helix(size_t count) {
 /* As many points and control points as a line may have. Work for each place by the number of points would take hours.
  */
 static void test_curve(void) {
-  size_t points = rig_sanitized ? 30000 : 300000;
-  double control = rig_sanitized ? 10000 : 100000;
+  size_t points = tests_sanitized ? 30000 : 300000;
+  double control = tests_sanitized ? 10000 : 100000;
   SporeCurve curve = helix(points);
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
@@ -222,7 +222,7 @@ static void test_curve(void) {
 
 /* Very many spheres of one body above another's. */
 static void test_spheres(void) {
-  size_t count = rig_sanitized ? 20000 : 200000;
+  size_t count = tests_sanitized ? 20000 : 200000;
   double *points = g_new(double, 3 * count);
   unsigned side = (unsigned)ceil(cbrt((double)count));
   for (size_t i = 0; i < count; i++) {

@@ -67,7 +67,7 @@ static double load_error(SporeIntegratorKind integrator, double h, Order order, 
 static void case_42(gconstpointer data) {
   SporeIntegratorKind integrator = (SporeIntegratorKind)GPOINTER_TO_INT(data);
   static const double steps[] = {0.01, 0.001};
-  for (unsigned s = 0; s < (rig_sanitized ? 1 : G_N_ELEMENTS(steps)); s++)
+  for (unsigned s = 0; s < (tests_sanitized ? 1 : G_N_ELEMENTS(steps)); s++)
     for (double ratio = 1; ratio < 2e6; ratio *= 1e3)
       for (Order order = 0; order < ORDERS; order++)
         g_assert_cmpfloat(load_error(integrator, steps[s], order, ratio), <, 0.01);

@@ -171,8 +171,8 @@ static void check_model(gconstpointer data) {
   for (Load load = 0; load < loads; load += of->variant ? HEAVY : 1) /* of a variant, every other load */
     for (SporeIntegratorKind kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
       GString *line = g_string_new(NULL);
-      const int again = load == AS_IT_COMES ? STEPS : rig_sanitized ? 0 : STEPS / 4;
-      for (unsigned i = rig_sanitized; i < G_N_ELEMENTS(steps); i += rig_sanitized ? 2 : 1) { /* or every other */
+      const int again = load == AS_IT_COMES ? STEPS : tests_sanitized ? 0 : STEPS / 4;
+      for (unsigned i = tests_sanitized; i < G_N_ELEMENTS(steps); i += tests_sanitized ? 2 : 1) { /* or every other */
         Rig *rig = set_up(*of, kind, steps[i], load);
         SporeError error = SPORE_ERROR_INIT;
         double rise = 0;

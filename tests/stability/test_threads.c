@@ -26,7 +26,7 @@ static void add_net(Rig *rig, guint index) {
 
 static void test_integrator(gconstpointer data) {
   uint64_t expected = 0;
-  for (int threads = 1; threads <= THREADS; threads *= rig_sanitized ? THREADS : 2) {
+  for (int threads = 1; threads <= THREADS; threads *= tests_sanitized ? THREADS : 2) {
     Rig *rig = new_rig((SporeIntegratorKind)GPOINTER_TO_INT(data), 1e-4);
     for (guint i = 0; i < NETS; i++) add_net(rig, i);
     SporePool *pool = spore_pool_create(threads);
@@ -91,7 +91,7 @@ static uint64_t hash_of(const Large *large, int threads) {
 
 static void test_large(gconstpointer data) {
   uint64_t expected = hash_of(data, 0);
-  for (int threads = rig_sanitized ? THREADS : 1; threads <= THREADS; threads++)
+  for (int threads = tests_sanitized ? THREADS : 1; threads <= THREADS; threads++)
     g_assert_cmphex(hash_of(data, threads), ==, expected);
 }
 
