@@ -73,6 +73,32 @@ static void test_impostors_through_lens(void) {
   check_impostors(TRUE, 0.35);
 }
 
+/* Rows of the picture that a line across it takes. */
+static int rows_of_line(const Bench *bench, int scale) {
+  const SporeCamera camera = straight_camera(0.3);
+  const SporeRenderOptions options = {.width = 120, .height = 120, .scale = scale};
+  Picture picture = {120, 120, g_malloc(4 * 120 * 120)};
+  GError *error = NULL;
+  int rows = 0;
+  spore_renderer_draw(bench->renderer, &camera, &options, picture.pixels, 4 * 120, &error);
+  g_assert_no_error(error);
+  for (int y = 0; y < 120; y++) rows += is_blue(&picture, 60, y);
+  picture_clear(&picture);
+  return rows;
+}
+
+/* A picture of two pixels for each of the widget has lines twice as wide. */
+static void test_scale(void) {
+  static const double points[6] = {-0.2, 0, 0, 0.2, 0, 0};
+  Bench bench = bench_open();
+  spore_renderer_add_lines(bench.renderer, points, 1, blue, 6);
+  int one = rows_of_line(&bench, 1), two = rows_of_line(&bench, 2);
+  g_assert_cmpint(one, ==, rows_of_line(&bench, 0));
+  g_assert_cmpint(abs(one - 6), <=, 1);
+  g_assert_cmpint(abs(two - 12), <=, 1);
+  bench_close(&bench);
+}
+
 static void test_rows_from_the_top(void) {
   static const double above[4] = {-0.05, 0.05, 0, 0.02}, below[4] = {0.05, -0.05, 0, 0.02};
   Bench bench = bench_open();
@@ -483,6 +509,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/clip", test_clip);
   g_test_add_func("/render/renderer/caps", test_caps);
   g_test_add_func("/render/renderer/tint", test_tint);
+  g_test_add_func("/render/renderer/scale", test_scale);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/begun-and-read", test_begun_and_read);

@@ -44,7 +44,7 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
     const SporeLineGroup *group = (const SporeLineGroup *)drawable;
     spore_drawable_set_offset(drawable, frame, program->offset);
     glUniform3fv(program->colour, 1, group->colour);
-    glUniform1f(program->width, group->width);
+    glUniform1f(program->width, group->width * frame->line_scale);
     glUniform1f(program->fade, group->fade);
     glUniform1f(program->dim, hidden ? group->hidden : 1);
     glBindVertexArray(group->vertex_array);

@@ -68,6 +68,7 @@ typedef struct SporeFrame {
   SporeFrameBlock block;
   SporeVec3 eye;    /* world, m */
   double near, far; /* m */
+  float line_scale; /* pixels in one of a line's width */
   SporeClip clip;   /* in the world */
   gboolean clips;   /* something may be hidden by the plane */
 } SporeFrame;

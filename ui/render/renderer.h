@@ -106,6 +106,7 @@ typedef struct SporeRenderOptions {
   int width, height;
   gboolean grid; /* floor grid and axes: editing; off for pictures. Never clipped */
   gboolean antialias;
+  int scale;      /* pixels of the picture in one of the widget's: lines are so much wider; 0: 1 */
   gboolean light; /* the room around the scene, as for print; else dark, as a body is */
   SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;

@@ -33,7 +33,11 @@ static gboolean is_fine(SporeViewport *self) {
 
 static void begin(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera, int width,
                   int height) {
-  SporeRenderOptions options = {width, height, .grid = !self->presented, .antialias = is_fine(self),
+  SporeRenderOptions options = {width,
+                                height,
+                                .grid = !self->presented,
+                                .antialias = is_fine(self),
+                                .scale = gtk_widget_get_scale_factor(self->area),
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;
   gint64 now = g_get_monotonic_time();

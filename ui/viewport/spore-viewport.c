@@ -106,7 +106,10 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
 gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GError **error) {
   int scale = gtk_widget_get_scale_factor(self->area);
   SporeRenderOptions options = {gtk_widget_get_allocated_width(self->area) * scale,
-                                gtk_widget_get_allocated_height(self->area) * scale, .grid = FALSE, .antialias = TRUE,
+                                gtk_widget_get_allocated_height(self->area) * scale,
+                                .grid = FALSE,
+                                .antialias = TRUE,
+                                .scale = scale,
                                 .clip = spore_viewport_clip(self)};
   gsize stride = (gsize)options.width * 4;
   spore_viewport_wait_for_graphics(self);
