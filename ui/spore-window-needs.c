@@ -4,6 +4,7 @@
 #include "core/author/exercise_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/soft_edits.h"
+#include "core/scene/kept_pose.h"
 #include "core/scene/port_reach.h"
 #include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
@@ -44,6 +45,7 @@ typedef guint64 Need;
 #define PORTS NEED(30)
 #define LOCKED NEED(32)
 #define MISSING NEED(31)
+#define POSE NEED(33)
 
 /* In the order in which they are told. */
 static const struct {
@@ -80,6 +82,7 @@ static const struct {
     {CAMERA, N_("the scene has no camera yet; add an endoscope")},
     {PORTS, N_("no instrument passes through a port yet; add one with the place where it enters")},
     {MISSING, N_("no file of the scene is missing")},
+    {POSE, N_("no pose was kept yet")},
     {EXERCISE, N_("the scene has no exercise yet; add a step in the Exercise tab")},
 };
 
@@ -161,6 +164,8 @@ static const struct {
     {"replay", SESSION},
     {"stay", SESSION},
     {"bookmark", SESSION},
+    {"keep-pose", SESSION},
+    {"forget-pose", POSE},
     {"save-recording", SESSION},
     {"keep-recording", SESSION},
     {"save-recording-dialog", SESSION},
@@ -243,8 +248,8 @@ static Need of_scene(SporeWindow *self) {
          (hands->len ? HANDS : 0) | (ports->len ? PORTS : 0) |
          (spore_object_child_of(spore_document_section(document, "tools"), "camera") ? CAMERA : 0) |
          (spore_object_child_count(spore_document_section(document, "exercise")) ? EXERCISE : 0) |
-         (measuring ? 0 : UNMEASURED) | (self->missing ? MISSING : 0) |
-         (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
+         (spore_document_kept_poses(document) ? POSE : 0) | (measuring ? 0 : UNMEASURED) |
+         (self->missing ? MISSING : 0) | (spore_viewport_hidden_count(SPORE_VIEWPORT(self->viewport)) ? HIDDEN : 0) |
          (g_hash_table_size(spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport))) ? LOCKED : 0) |
          (spore_viewport_measure_count(SPORE_VIEWPORT(self->viewport)) ? MEASURES : 0) |
          (spore_editor_document_get_study(self->document) ? STUDY : 0) |

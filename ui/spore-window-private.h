@@ -159,6 +159,9 @@ void spore_window_stop_picking(SporeWindow *self);
 /* spore-window-placement.c: moving, turning and aligning. */
 void spore_window_add_placement_actions(SporeWindow *self);
 
+/* spore-window-pose.c: what a run shows as the scene's beginning. */
+void spore_window_add_pose_actions(SporeWindow *self);
+
 /* spore-window-links.c: links. */
 void spore_window_add_link_actions(SporeWindow *self);
 /* An entry for each kind of link that the schema has. */

@@ -38,7 +38,8 @@
  *               film-attempts-dialog [ax],
  *               save-exercise [s path, which ends in .html, .csv or .json], save-exercise-dialog [s suffix]
  *   simulation  play, pause, play-pause, step, reset, step-back, go-to [d time, s], replay, stay (where it is, on its
- *               way to another time), bookmark, speed [s factor, "0": as fast as it goes; state],
+ *               way to another time), bookmark, keep-pose (the scene begins as it is now), forget-pose,
+ *               speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-reach, show-figures (state), box-select (state: of the next drag),

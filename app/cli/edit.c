@@ -13,6 +13,7 @@
 #include "core/author/mirror_edits.h"
 #include "core/author/patient_positions.h"
 #include "core/author/port_edits.h"
+#include "core/author/pose_edits.h"
 #include "core/author/removal.h"
 #include "core/author/soft_edits.h"
 #include "core/author/texture_edits.h"
@@ -25,7 +26,8 @@ typedef struct Request {
   char **delete, **locate, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port,
       **texture, *patient, *output;
   SporeCliPlacing placing;
-  gboolean probe;
+  char *keep_pose; /* seconds; NULL: none is kept */
+  gboolean probe, forget_pose;
 } Request;
 
 /* What was done, for the report. */
@@ -315,6 +317,20 @@ static SporeObject *move_port(SporeDocument *document, const char *text, GError 
   return port && spore_edit_move_port(document, port, place, error) ? port : NULL;
 }
 
+/* Runs the scene for that time, and lets it begin so. */
+static gboolean keep_pose(SporeCli *cli, SporeDocument *document, const char *text, GPtrArray *changed,
+                          GError **error) {
+  double time_s;
+  g_autoptr(GPtrArray) left_out = g_ptr_array_new_with_free_func(g_free);
+  if (!spore_cli_seconds("--keep-pose", text, &time_s, error) ||
+      !spore_edit_keep_pose_after(document, time_s, spore_cli_cancel(), spore_cli_progress(cli), left_out, error))
+    return FALSE;
+  for (guint i = 0; i < left_out->len; i++)
+    spore_cli_say(cli, _("no pose is kept: %s\n"), (const char *)left_out->pdata[i]);
+  note(changed, spore_document_section(document, "bodies"));
+  return TRUE;
+}
+
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->delete; path && *path; path++)
@@ -357,7 +373,9 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   if (!spore_cli_place(document, &request->placing, changed, error)) return FALSE;
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
-  return probe || !request->probe;
+  if (request->probe && !probe) return FALSE;
+  if (request->forget_pose && !spore_edit_forget_pose(document, error)) return FALSE;
+  return !request->keep_pose || keep_pose(cli, document, request->keep_pose, changed, error);
 }
 
 static void report_changed(SporeCli *cli, const GPtrArray *changed) {
@@ -487,6 +505,13 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        "BODY,BODY=AXIS:SIDE"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
+      {"forget-pose", 0, 0, G_OPTION_ARG_NONE, &request.forget_pose,
+       N_("Let all bodies begin as their geometry says, not in a pose that was kept"), NULL},
+      {"keep-pose", 0, 0, G_OPTION_ARG_STRING, &request.keep_pose,
+       N_("Run the scene for so many seconds, after all else, and let it begin as it is then: bodies stand still in "
+          "the "
+          "shape and place that they have come to"),
+       "S"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
@@ -494,16 +519,18 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   gboolean any = request.delete || request.locate || request.add || request.soft || request.level || request.set ||
                  request.patient || request.hold || request.instrument || request.fluid || request.mirror ||
                  request.copy || request.port || request.texture || request.placing.move || request.placing.turn ||
-                 request.placing.scale || request.placing.align || request.probe;
+                 request.placing.scale || request.placing.align || request.probe || request.forget_pose ||
+                 request.keep_pose;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --delete, --locate, --add, --soft, --level, --set, --patient, "
           "--hold, "
-          "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align or --probe; "
-          "give one of them"));
+          "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align, --probe, "
+          "--forget-pose or --keep-pose; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);
+  g_free(request.keep_pose);
   g_strfreev(request.locate);
   g_strfreev(request.add);
   g_strfreev(request.soft);

@@ -165,6 +165,8 @@ TABLE(static, levels, SporeLodDescription, LEVELS)
   X(T, velocity, REALS, DOUBLES(SporeVec3))                                                                            \
   X(T, spin, REALS, DOUBLES(SporeVec3))                                                                                \
   X(T, effect, FLAG)                                                                                                   \
+  X(T, start_count, SIZE)                                                                                              \
+  X(T, start, POINTER, MANY(T, start_count, 1, REAL))                                                                  \
   X(T, spheres, POINTER, ONE(spheres))                                                                                 \
   X(T, contact, FIELDS, .parameters = &spore_contact_parameters)
 TABLE(static, body, SporeBodyDescription, BODY)

@@ -107,6 +107,7 @@ static bool trust_body(const SporeRuntimeScene *scene, size_t i, SporeError *err
       recipes[SPORE_LOD_COARSE].type || recipes[SPORE_LOD_MEDIUM].type; /* else there is nothing to begin at */
   if (levels && !recipes[lod->first].type) return refuse(error, _("a body begins at a level that it does not have"));
   if (lod->surface_count > 0 && !lod->surface) return refuse(error, _("a level's surface is missing"));
+  if ((body->start_count > 0) != (body->start != NULL)) return refuse(error, _("a body's beginning is missing"));
   return !body->spheres || trust_spheres(body->spheres, error);
 }
 

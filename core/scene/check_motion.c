@@ -322,6 +322,7 @@ void spore_check_motion(SporeCheck *check) {
   if (simulation) spore_check_link_points(check, simulation);
   if (simulation) spore_check_pins(check, simulation);
   if (simulation) spore_check_levels(check, simulation);
+  if (simulation) spore_check_poses(check, simulation);
   find_drops(&start);
   if (simulation) check_impacts(&start, simulation);
   spore_simulation_free(simulation);

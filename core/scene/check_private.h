@@ -47,6 +47,8 @@ void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulatio
 void spore_check_pins(SporeCheck *check, const SporeSimulation *simulation);
 /* Drawn vertices and collision spheres that lie off the geometry that moves them. */
 void spore_check_mapping(SporeCheck *check, const SporeSimulation *simulation);
+/* Kept poses of another shape. */
+void spore_check_poses(SporeCheck *check, const SporeSimulation *simulation);
 /* Levels of detail whose rule of change has nothing to act on. */
 void spore_check_levels(SporeCheck *check, const SporeSimulation *simulation);
 void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene for it */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/scene/fidelity.h"
+#include "core/scene/kept_pose.h"
 #include "core/scene/level_settings.h"
 #include "core/scene/sheet_corners.h"
 
@@ -295,6 +296,23 @@ static gboolean add_collision(SporeCompiler *compiler, const SporeObject *body, 
   return !spheres || description->spheres;
 }
 
+/* Finds the pose that the body was kept in. One that is stale is left out; check says so. */
+static gboolean find_start(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeModel *level =
+      description->lod.first == SPORE_LOD_FINE ? NULL : description->lod.model[description->lod.first];
+  const SporeModel *model = level ? level : description->model; /* a body without levels has but one model */
+  const SporePose frame = {description->pose.position, spore_quat_normalise(description->pose.orientation)};
+  SporeKeptPoseState state;
+  double *q;
+  g_autoptr(GError) fault = NULL;
+  if (description->role == SPORE_UNMOVABLE) return TRUE;
+  if (!spore_kept_pose_read(compiler->document, body, model, frame, &state, &q, &description->start_count, &fault))
+    return spore_compiler_refuse(compiler, body, "%s", fault->message);
+  description->start = q;
+  if (q) g_ptr_array_add(compiler->kept, q);
+  return TRUE;
+}
+
 gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
   SporeBodyFields fields;
   spore_object_fields(body, &fields);
@@ -311,7 +329,8 @@ gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
     return FALSE;
   description.effect =
       spore_fidelity_state(compiler->document, spore_object_child_of(body, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
-  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description, recipes);
+  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description, recipes) &&
+                   find_start(compiler, body, &description);
   g_ptr_array_add(compiler->objects, body);
   g_array_append_val(compiler->bodies, description);
   g_array_append_vals(compiler->recipes, recipes, SPORE_LOD_COUNT);

@@ -49,6 +49,13 @@ static const SporeParameter body_parameters[] = {
      FIELD(SporeBodyFields, spin),
      .change = SPORE_CHANGE_RESTART,
      .doc = N_("Angular velocity at the start, about the scene's axes.")},
+    {.name = "kept_pose",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeBodyFields, kept_pose),
+     .change = SPORE_CHANGE_RESTART,
+     .doc = N_("File with the state of the body at the start, kept from a run: it begins so, at rest, while links and "
+               "the shape without stress stay those of its place and geometry. velocity and spin are not used then.")},
     {.name = "name_guessed",
      .type = SPORE_BOOLEAN,
      .unit = "",

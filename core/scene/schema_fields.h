@@ -36,6 +36,7 @@ typedef struct SporeBodyFields {
   const char *name;
   int role; /* SporeRole */
   double position[3], rotation[3], velocity[3], spin[3];
+  const char *kept_pose; /* NULL: none */
   bool name_guessed;
 } SporeBodyFields;
 

@@ -168,6 +168,39 @@ static bool create_bodies(SporeWorld *world, const SporeWorldDescription *descri
   return true;
 }
 
+static bool is_unit(const double *q) { return fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) < 1e-6; }
+
+/* Takes where a body begins, at its first level of detail. Spare nodes begin where the model puts them. */
+static bool take_start(SporeWorld *world, uint32_t index, const SporeBodyDescription *from, SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  const SporeModel *model = spore_world_lod_model(world, index, spore_world_first_lod(world, index));
+  const double *rest = body->lod ? body->lod->level[body->lod->first].rest_q : world->state.rest_q + body->q_offset;
+  size_t count = model ? model->q_count : SPORE_POSE_Q, spare = model ? 3 * model->spare_count : 0;
+  size_t turn = !model ? 3 : model->type->inertia ? 3 * model->node_count : SIZE_MAX;
+  if (body->role == SPORE_UNMOVABLE || from->start_count + spare != count || !finite_all(from->start, count - spare) ||
+      (turn != SIZE_MAX && !is_unit(from->start + turn)))
+    return fail(error, body->name,
+                _("what it is to begin with is not a state of this body; expected one that was kept of it; leave it "
+                  "out"));
+  body->start = SPORE_NEW_ARRAY(double, count);
+  if (!body->start) return no_memory(error);
+  memcpy(body->start, from->start, (count - spare) * sizeof *rest);
+  memcpy(body->start + count - spare, rest + count - spare, spare * sizeof *rest);
+  return true;
+}
+
+static bool take_starts(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  assert(description->body_count == world->body_count && !world->state.still);
+  bool any = false;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    if (!description->bodies[b].start) continue;
+    if (!take_start(world, b, &description->bodies[b], error)) return false;
+    any = true;
+  }
+  if (any) world->state.still = SPORE_NEW_ARRAY(double, world->state.v_count);
+  return !any || world->state.still || no_memory(error);
+}
+
 /* Appends the spheres of the unmovable bodies, or of all other bodies. */
 static bool add_spheres(SporeWorld *world, const SporeWorldDescription *description, bool unmovable,
                         SporeError *error) {
@@ -349,8 +382,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       ((spore_world_create_refinement(world) && spore_world_create_coupled_rooms(world) && prepare_sweeps(world)) ||
        no_memory(error)) &&
       spore_world_create_factors(world, error) && go_on(world) && spore_world_create_lod(world, description, error) &&
-      spore_lod_create_automation(world, description, error) && allocate_vectors(world, error) && go_on(world) &&
-      check_steps(world, error);
+      spore_lod_create_automation(world, description, error) && take_starts(world, description, error) &&
+      allocate_vectors(world, error) && go_on(world) && check_steps(world, error);
   if (spore_cancel_asked(world->cancel)) return give_up_cancelled(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {

@@ -11,6 +11,7 @@
 
 static void clear_body(SporeBody *body) {
   spore_free(body->name);
+  spore_free(body->start);
   spore_mapping_clear(&body->collision.spheres);
   spore_depth_field_clear(&body->collision.field);
   spore_free(body->collision.whole_weight);
@@ -61,6 +62,13 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
 }
 
+/* Sets the bodies whose beginning is not where their models put them. */
+static void set_starts(SporeWorld *world) {
+  assert(world->state.step == 0);
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].start) spore_world_set_state(world, b, world->bodies[b].start, world->state.still);
+}
+
 void spore_world_reset(SporeWorld *world) {
   assert(world->state.rest_q && world->state.rest_v);
   assert(world->state.next_q && world->state.next_v);
@@ -94,12 +102,18 @@ void spore_world_reset(SporeWorld *world) {
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_world_publish(world);
+  set_starts(world);
 }
 
 void spore_world_set_budget(SporeWorld *world, double budget_us) { world->schedule.budget_us = budget_us; }
 
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device) {
   if (body < world->body_count) world->bodies[body].device.device = device;
+}
+
+bool spore_world_body_altered(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].altered;
 }
 
 SporeDevice *spore_world_device(const SporeWorld *world, uint32_t body) {

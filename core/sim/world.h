@@ -62,7 +62,11 @@ typedef struct SporeBodyDescription {
   SporePose pose;                 /* of the body's frame at time 0 */
   SporeVec3 velocity, spin;       /* at time 0, m/s and rad/s, world axes */
   bool effect;                    /* of a passive body: at time 0 it is moved by an effect, see SporeEffectForm */
-  const SporeSphereSet *spheres;  /* collision unit, body's frame at rest; borrowed; NULL: none */
+  size_t start_count;             /* numbers of `start` */
+  const double *start; /* the body's q at time 0, at which it stands still, without spare nodes. Links and all else are
+                          made where the model puts the body (`pose`); the body is then set here. NULL: it begins where
+                          the model puts it, with velocity and spin; an unmovable body has none */
+  const SporeSphereSet *spheres; /* collision unit, body's frame at rest; borrowed; NULL: none */
   SporeContactFields contact;
 } SporeBodyDescription;
 
@@ -207,6 +211,9 @@ const double *spore_world_v(const SporeWorld *world, uint32_t body);
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
 /* Puts a body at a level of detail that it has, with the level's state at time 0. The caller sets the state next. */
 void spore_world_set_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
+
+/* Whether the body was cut, torn or coagulated since time 0, which its q does not tell. */
+bool spore_world_body_altered(const SporeWorld *world, uint32_t body);
 
 /* Makes the mapping of points to the body at its present level of detail, whatever its role; for viewers and measuring.
  * points: count x 3, body's frame at rest, m. The caller frees the mapping by spore_mapping_clear. A viewer evaluates

@@ -31,7 +31,8 @@ typedef struct SporeBodyDevice {
 struct SporeBody {
   char *name;
   SporeRole role;
-  SporePose rest_pose; /* at time 0 */
+  SporePose rest_pose; /* of the frame that the body is made in, at time 0 */
+  double *start;       /* q_count of the first level: the state at time 0; NULL: as the model places it */
   SporeModel *model;
   double total_mass;                               /* kg, of the model */
   SporeLod *lod;                                   /* NULL: the body has one level of detail */

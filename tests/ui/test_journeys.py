@@ -1290,7 +1290,7 @@ def let_time_pass(editor, seconds=0.05):
 
 @check
 def play_pause_step_reset():
-    """time advances while playing, stands while paused, goes one step, back, to a bookmark, through it all again, and back to 0; where the scene was changed meanwhile it does not go back, and says so."""
+    """time advances while playing, stands while paused, goes one step, back, to a bookmark, through it all again, and back to 0; what is seen is kept as the beginning; where the scene was changed meanwhile it does not go back, and says so."""
     with start() as editor:
         make_soft_ball(editor)
         editor.act("play")
@@ -1318,6 +1318,19 @@ def play_pause_step_reset():
         ui.wait(lambda: "go back to the start first" in (editor.message() or ""), "the refusal")
         editor.act("reset")
         ui.wait(lambda: editor.time_s() == 0, "time 0")
+        editor.act("play")
+        ui.wait(lambda: editor.time_s() > 0.02, "time to advance once more")
+        editor.press(editor.find("push button", "^Keep this pose$"))
+        ui.wait(lambda: "begins so from now on" in (editor.message() or ""), "the pose to be kept")
+        keep_picture(editor, "kept-pose")
+        kept = saved(editor, "kept")
+        assert kept.count("kept_pose=") == 1
+        editor.act("reset")
+        ui.wait(lambda: editor.time_s() == 0, "the new beginning")
+        editor.act("forget-pose")
+        assert "kept_pose=" not in saved(editor, "forgotten")
+        editor.act("undo")
+        assert saved(editor, "undone") == kept
 
 
 @check

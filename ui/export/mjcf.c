@@ -231,6 +231,7 @@ static gboolean make_model(gpointer data, const SporeDrawing *drawing, double ti
                       g_strdup_printf(_("%u of %u links: the file has springs and ball joints between rigid "
                                         "bodies"),
                                       model->lost_links, spore_object_child_count(links)));
+  spore_export_lose_poses(model->export);
   model->text = write_model(model);
   return TRUE;
 }

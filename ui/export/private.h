@@ -12,6 +12,8 @@ gboolean spore_export_write(SporeExport *export, const void *content, gsize size
 void spore_export_wrote(SporeExport *export, const char *file, gsize bytes);
 /* Adds a sentence, translated: what the scene holds and the format cannot. Takes over the text. */
 void spore_export_lose(SporeExport *export, char *sentence);
+/* Says that bodies begin as modelled, where poses were kept. */
+void spore_export_lose_poses(SporeExport *export);
 /* The same: what the scene holds and the file does not need. */
 void spore_export_leave_out(SporeExport *export, char *sentence);
 

@@ -348,6 +348,7 @@ gboolean spore_export_sofa(SporeExport *export, GError **error) {
                   spore_export_write(export, sofa.text->str, sofa.text->len, error);
   g_string_free(sofa.text, TRUE);
   lose_links(export);
+  spore_export_lose_poses(export);
   spore_export_lose(export, g_strdup(_("surfaces and colours")));
   spore_export_lose(export, g_strdup(_("the contact law, friction, and who touches whom: SOFA's penalties take their "
                                        "place")));

@@ -1,5 +1,8 @@
 /* What an export tells: files that it wrote, and sentences of what is lost and left out. */
+#include <glib/gi18n.h>
+
 #include "core/io/scene_xml.h"
+#include "core/scene/kept_pose.h"
 #include "ui/export/private.h"
 
 #define FILES_SAID 4 /* one by one */
@@ -23,6 +26,11 @@ guint spore_export_unsaid(const SporeExport *export, gsize *bytes) {
 }
 
 void spore_export_lose(SporeExport *export, char *sentence) { g_ptr_array_add(export->lost, sentence); }
+
+void spore_export_lose_poses(SporeExport *export) {
+  guint kept = spore_document_kept_poses(export->document);
+  if (kept) spore_export_lose(export, g_strdup_printf(_("the kept poses of %u bodies: they begin as modelled"), kept));
+}
 
 void spore_export_leave_out(SporeExport *export, char *sentence) { g_ptr_array_add(export->left_out, sentence); }
 

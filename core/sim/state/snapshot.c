@@ -265,6 +265,7 @@ void spore_state_clear(SporeState *state) {
   clear_snapshots(&state->snapshots);
   spore_free(state->rest_q);
   spore_free(state->rest_v);
+  spore_free(state->still);
   spore_free(state->sites);
   spore_free(state->target_q);
   spore_free(state->mass);

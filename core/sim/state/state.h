@@ -41,7 +41,8 @@ typedef struct SporeUnsolvedCount {
 typedef struct SporeState {
   size_t q_count, v_count;
   size_t dof;                  /* components of v that physics moves */
-  double *rest_q, *rest_v;     /* at time 0 */
+  double *rest_q, *rest_v;     /* as models place their bodies: what links and tools are made at */
+  double *still;               /* v_count zeros, where some body has a start of its own; else NULL */
   SporeSite *sites;            /* where each body begins in q and v */
   uint64_t step;               /* steps taken */
   SporeVec3 gravity;           /* m/s^2 */

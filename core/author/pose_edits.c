@@ -1,0 +1,128 @@
+/* Keeps the poses of a running simulation in its document. */
+#include "core/author/pose_edits.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/author/edits.h"
+#include "core/io/organ.h"
+#include "core/scene/kept_pose.h"
+
+#define FRAME 7 /* doubles in q of a body that physics does not move */
+
+/* A body of the simulation. */
+typedef struct Seen {
+  SporeDocument *document;
+  SporeObject *object;
+  const SporeWorld *world;
+  guint32 body;
+} Seen;
+
+static const double *q_of(const Seen *seen) { return spore_world_q(seen->world, seen->body); }
+
+static const SporeModel *model_of(const Seen *seen) { return spore_world_body_model(seen->world, seen->body); }
+
+/* Why the state of the body is not one to begin with; NULL: it is. g_free. */
+static char *reason_against(const Seen *seen) {
+  const char *name = spore_object_name(seen->object);
+  SporeLineState line;
+  SporeLodState level;
+  if (spore_world_body_altered(seen->world, seen->body))
+    return g_strdup_printf(_("\"%s\" was cut, torn or coagulated, and a pose does not keep that"), name);
+  if (spore_world_line_state(seen->world, seen->body, &line) && line.points != line.made)
+    return g_strdup_printf(_("\"%s\" has other control points than at the start"), name);
+  if (spore_world_lod_state(seen->world, seen->body, &level) &&
+      level.level != spore_world_first_lod(seen->world, seen->body))
+    return g_strdup_printf(_("\"%s\" is at another level of detail than at the start"), name);
+  gsize inverted = spore_kept_pose_inverted(seen->document, seen->object, model_of(seen), q_of(seen));
+  if (inverted > 0) return g_strdup_printf(_("%zu tetrahedra of \"%s\" are inside out"), inverted, name);
+  return NULL;
+}
+
+/* Whether the body is where its model, or its place in the scene, puts it. */
+static gboolean is_at_rest(const Seen *seen) {
+  const SporeModel *model = model_of(seen);
+  const SporePose pose = spore_world_start_pose(seen->world, seen->body);
+  const SporeVec3 none = {0, 0, 0};
+  gsize count = model ? model->q_count - 3 * model->spare_count : FRAME;
+  g_autofree double *q = g_new0(double, model ? model->q_room : FRAME);
+  g_autofree double *v = g_new0(double, model ? 3 * model->block_room : 1);
+  if (model) model->type->place(model, pose, none, none, q, v);
+  else spore_vec3_store(q, pose.position), spore_quat_store(q + 3, pose.orientation);
+  return memcmp(q, q_of(seen), count * sizeof *q) == 0;
+}
+
+static gboolean unset_pose(SporeDocument *document, SporeObject *body, GError **error) {
+  int index = spore_parameter_find(spore_object_type(body)->table, "kept_pose");
+  return !spore_object_is_set(body, (guint)index) || spore_document_unset(document, body, (guint)index, error);
+}
+
+static gboolean keep_body(const Seen *seen, GError **error) {
+  gsize size;
+  char *text =
+      spore_kept_pose_format(model_of(seen), spore_world_start_pose(seen->world, seen->body), q_of(seen), &size);
+  g_autofree char *file = spore_content_file_name(spore_object_name(seen->object), "pose", text, size);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  spore_document_put_blob(seen->document, file, content);
+  return spore_document_set_text(seen->document, seen->object, "kept_pose", file, error);
+}
+
+/* *kept: raised for a body that keeps a pose. */
+static gboolean keep(const Seen *seen, GPtrArray *left_out, guint *kept, GError **error) {
+  if (spore_world_body_role(seen->world, seen->body) == SPORE_UNMOVABLE) return TRUE;
+  char *reason = reason_against(seen);
+  if (reason) {
+    g_ptr_array_add(left_out, reason);
+    return TRUE;
+  }
+  if (is_at_rest(seen)) return unset_pose(seen->document, seen->object, error);
+  (*kept)++;
+  return keep_body(seen, error);
+}
+
+gboolean spore_edit_keep_pose(SporeDocument *document, const SporeSimulation *simulation, GPtrArray *left_out,
+                              GError **error) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  gboolean done = TRUE;
+  guint kept = 0;
+  spore_document_begin(document, _("Keep this pose"));
+  for (guint i = 0; done && i < spore_object_child_count(bodies); i++) {
+    Seen seen = {document, spore_object_child(bodies, i), simulation->world, SPORE_NO_BODY};
+    seen.body = spore_simulation_body_of(simulation, seen.object);
+    if (seen.body != SPORE_NO_BODY) done = keep(&seen, left_out, &kept, error);
+  }
+  if (done && kept == 0)
+    done = spore_error_raise(error, SPORE_ERROR_INPUT, "bodies", "%s",
+                             left_out->len > 0 ? (const char *)left_out->pdata[0]
+                                               : _("no body has moved; play first, and keep what you see then"));
+  return spore_edit_finish(document, done);
+}
+
+static gboolean run(SporeWorld *world, guint64 steps, const SporeProgress *progress, GError **error) {
+  for (guint64 i = 0; i < steps; i++) {
+    gboolean wanted = spore_progress(progress, (double)i / (double)steps, _("running the scene"));
+    if (wanted) spore_world_step(world);
+    if (!wanted || spore_world_cancelled(world))
+      return spore_error_raise(error, SPORE_ERROR_CANCELLED, NULL, "%s", _("cancelled"));
+    spore_world_tidy(world);
+  }
+  return TRUE;
+}
+
+gboolean spore_edit_keep_pose_after(SporeDocument *document, double time_s, const SporeCancel *cancel,
+                                    const SporeProgress *progress, GPtrArray *left_out, GError **error) {
+  double step_s = spore_object_number(spore_document_section(document, "solver"), "time_step");
+  g_autoptr(SporeSimulation) simulation = spore_simulation_new(document, NULL, NULL, cancel, error);
+  return simulation && run(simulation->world, (guint64)llround(time_s / step_s), progress, error) &&
+         spore_edit_keep_pose(document, simulation, left_out, error);
+}
+
+gboolean spore_edit_forget_pose(SporeDocument *document, GError **error) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  gboolean done = TRUE;
+  spore_document_begin(document, _("Forget the kept pose"));
+  for (guint i = 0; done && i < spore_object_child_count(bodies); i++)
+    done = unset_pose(document, spore_object_child(bodies, i), error);
+  return spore_edit_finish(document, done);
+}
