@@ -180,14 +180,41 @@ static void act_unlock_all(GSimpleAction *action, GVariant *parameter, gpointer 
 
 /* Deleting. */
 
+/* What went along, and how to have it back. */
+static void tell_along(SporeWindow *self, const GPtrArray *along) {
+  g_autoptr(GString) list = g_string_new(NULL);
+  for (guint i = 0; i < along->len; i++)
+    g_string_append_printf(list, i ? ", %s" : "%s", ((const SporeAlong *)along->pdata[i])->text);
+  g_autofree char *text =
+      g_strdup_printf(ngettext("%u thing went along, since nothing else uses it: %s",
+                               "%u things went along, since nothing else uses them: %s", along->len),
+                      along->len, list->str);
+  self->deleted_revision = spore_document_revision(document_of(self));
+  spore_window_complain_while(self, SPORE_CAUSE_EDIT, text, _("Keep them"), "win.keep-along");
+}
+
+static void delete_selected(SporeWindow *self, gboolean alone) {
+  g_autoptr(GError) error = NULL;
+  g_autoptr(GPtrArray) along = spore_along_new();
+  if (!spore_edit_delete(document_of(self), self->deleted, alone, along, &error)) spore_window_failed(self, error);
+  else if (along->len) tell_along(self, along);
+}
+
 static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
-  g_autoptr(GError) error = NULL;
-  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32)); /* the selection changes meanwhile */
   gsize count;
   const guint32 *selected = spore_editor_document_get_selected(self->document, &count);
-  g_array_append_vals(ids, selected, (guint)count);
-  if (!spore_edit_delete(document_of(self), ids, &error)) spore_window_failed(self, error);
+  g_array_set_size(self->deleted, 0); /* the selection changes meanwhile */
+  g_array_append_vals(self->deleted, selected, (guint)count);
+  delete_selected(self, g_str_equal(g_action_get_name(G_ACTION(action)), "delete-alone"));
+}
+
+/* The last deletion once more, without what went along. */
+static void act_keep_along(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  if (self->deleted_revision != spore_document_revision(document_of(self))) return;
+  spore_document_undo(document_of(self));
+  delete_selected(self, TRUE);
 }
 
 void spore_window_add_body_actions(SporeWindow *self) {
@@ -205,6 +232,8 @@ void spore_window_add_body_actions(SporeWindow *self) {
       {"lock-or-unlock", act_lock_or_unlock, "s"},
       {"unlock-all", act_unlock_all},
       {"delete", act_delete},
+      {"delete-alone", act_delete},
+      {"keep-along", act_keep_along},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

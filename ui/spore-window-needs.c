@@ -95,6 +95,8 @@ static const struct {
     {"redo", REDO},
     {"save", UNSAVED},
     {"delete", NAMED},
+    {"delete-alone", NAMED},
+    {"keep-along", UNDO},
     {"move-row", NAMED},
     {"rename", NAMED | ALONE},
     {"rename-dialog", NAMED | ALONE},

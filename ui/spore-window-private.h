@@ -87,13 +87,15 @@ struct _SporeWindow {
   SporeJob *look_job; /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
   gint64 look_time;
-  gboolean framed_apart;  /* the view has moved to a candidate that belongs to no body */
-  gboolean made_room;     /* the bottom was made taller for a study */
-  GArray *loose;          /* of guint: ids of the bodies that fall unless they are held */
-  guint missing;          /* files of the scene that are not there, as last checked */
-  GArray *gaps_logged_ms; /* of double: how long the window stood still, as the log has it */
-  gboolean gaps_play;     /* gaps are told as those of playing */
-  gboolean fresh, sure;   /* sure: the user has answered about unsaved changes */
+  gboolean framed_apart;    /* the view has moved to a candidate that belongs to no body */
+  gboolean made_room;       /* the bottom was made taller for a study */
+  GArray *deleted;          /* of guint32: ids of what was deleted last */
+  guint64 deleted_revision; /* of the document, when something had gone along */
+  GArray *loose;            /* of guint: ids of the bodies that fall unless they are held */
+  guint missing;            /* files of the scene that are not there, as last checked */
+  GArray *gaps_logged_ms;   /* of double: how long the window stood still, as the log has it */
+  gboolean gaps_play;       /* gaps are told as those of playing */
+  gboolean fresh, sure;     /* sure: the user has answered about unsaved changes */
 };
 
 /* spore-window-needs.c: what can be done. */

@@ -65,6 +65,8 @@ static const struct {
     {"win.patient::trendelenburg", N_("Patient: head down (Trendelenburg)")},
     {"win.patient::reverse_trendelenburg", N_("Patient: head up (reverse Trendelenburg)")},
     {"win.patient::upright", N_("Patient: upright")},
+    {"win.delete-alone", N_("Delete, and keep its meshes and steps of the exercise")},
+    {"win.keep-along", N_("Keep what went along with what was deleted last")},
     {"win.move-row(-1)", N_("Outliner: move up in the list")},
     {"win.move-row(1)", N_("Outliner: move down in the list")},
     {"win.filter", N_("Filter the outliner")},

@@ -176,6 +176,7 @@ static void spore_window_dispose(GObject *object) {
   g_clear_pointer(&self->unreadable, g_ptr_array_unref);
   g_clear_pointer(&self->scenes, g_free);
   g_clear_pointer(&self->loose, g_array_unref);
+  g_clear_pointer(&self->deleted, g_array_unref);
   g_clear_pointer(&self->gaps_logged_ms, g_array_unref);
   g_clear_object(&self->hands);
   G_OBJECT_CLASS(spore_window_parent_class)->dispose(object);
@@ -256,6 +257,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
 }
 
 static void spore_window_init(SporeWindow *self) {
+  self->deleted = g_array_new(FALSE, FALSE, sizeof(guint32));
   self->loose = g_array_new(FALSE, FALSE, sizeof(guint));
   self->gaps_logged_ms = g_array_new(FALSE, TRUE, sizeof(double));
   self->fresh = TRUE;

@@ -12,8 +12,9 @@
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close, locate [s missing file, as the scene names it, s path], locate-dialog
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
- *               move-row [i -1 or 1] (of what is selected, in its list), set-property [s path, s name,
- *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
+ *               delete-alone (assets and steps of the exercise stay), keep-along (what the last delete took besides),
+ *               move-row [i -1 or 1] (of what is selected, in its list), set-property [s path, s name, s value],
+ *               unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
  *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,
  *               add-region [s path of what holds it], place-region [s path] (in the view), remove-region [s path],

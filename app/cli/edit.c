@@ -23,8 +23,8 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **delete, **locate, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy, **instrument, **port,
-      **texture, *patient, *output;
+  char **delete, **delete_alone, **locate, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy,
+      **instrument, **port, **texture, *patient, *output;
   SporeCliPlacing placing;
   char *keep_pose; /* seconds; NULL: none is kept */
   gboolean probe, forget_pose;
@@ -92,7 +92,8 @@ static gboolean make_soft(SporeCli *cli, SporeDocument *document, char **names, 
 }
 
 /* PATH of what has a name */
-static gboolean delete_object(SporeDocument *document, const char *path, GPtrArray *changed, GError **error) {
+static gboolean delete_object(SporeDocument *document, const char *path, gboolean alone, GPtrArray *changed,
+                              GError **error) {
   SporeObject *object = spore_document_by_path(document, path);
   if (!object || !spore_object_name(object))
     return spore_error_raise(error, SPORE_ERROR_INPUT, path, "%s",
@@ -102,7 +103,11 @@ static gboolean delete_object(SporeDocument *document, const char *path, GPtrArr
   g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof id);
   g_array_append_val(ids, id);
   note(changed, object);
-  return spore_edit_delete(document, ids, error);
+  g_autoptr(GPtrArray) along = spore_along_new();
+  gboolean done = spore_edit_delete(document, ids, alone, along, error);
+  for (guint i = 0; i < along->len; i++)
+    g_ptr_array_add(changed, g_strdup(((const SporeAlong *)along->pdata[i])->path));
+  return done;
 }
 
 /* The end of the name of a missing file, which may itself have a =; NULL: none of them begins the text. */
@@ -334,7 +339,9 @@ static gboolean keep_pose(SporeCli *cli, SporeDocument *document, const char *te
 static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *request, Done *done, GError **error) {
   GPtrArray *changed = done->changed;
   for (char **path = request->delete; path && *path; path++)
-    if (!delete_object(document, *path, changed, error)) return FALSE;
+    if (!delete_object(document, *path, FALSE, changed, error)) return FALSE;
+  for (char **path = request->delete_alone; path && *path; path++)
+    if (!delete_object(document, *path, TRUE, changed, error)) return FALSE;
   for (char **text = request->locate; text && *text; text++)
     if (!locate(cli, document, *text, done, error)) return FALSE;
   for (char **path = request->add; path && *path; path++) {
@@ -419,7 +426,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "not taken)")},
       {"soft", N_("what was made soft: body, tetrahedra, spheres (0: it had its own), distance as a share of the "
                   "diagonal")},
-      {"changed", N_("paths of what was added and set")},
+      {"changed", N_("paths of what was added, set and deleted")},
       {"diagnostics", N_("what there is to mend in it: place, message, remedy")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
@@ -428,9 +435,12 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"delete", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.delete,
        N_("Delete an object, before anything is added: a link, a body with the links that tie it, an instrument with "
-          "all "
-          "that belongs to it (may be repeated)"),
+          "all that belongs to it; and assets, steps and metrics that nothing else uses, which \"changed\" lists (may "
+          "be "
+          "repeated)"),
        "PATH"},
+      {"delete-alone", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.delete_alone,
+       N_("Likewise, but keep an organ's assets, and steps and metrics that name it (may be repeated)"), "PATH"},
       {"locate", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &request.locate,
        N_("Take a file that the scene misses from where it lies now, before anything is added, and other missing ones "
           "that lie beside it: liver.off=/data/liver.off (may be repeated)"),
@@ -516,14 +526,15 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  gboolean any = request.delete || request.locate || request.add || request.soft || request.level || request.set ||
-                 request.patient || request.hold || request.instrument || request.fluid || request.mirror ||
-                 request.copy || request.port || request.texture || request.placing.move || request.placing.turn ||
-                 request.placing.scale || request.placing.align || request.probe || request.forget_pose ||
-                 request.keep_pose;
+  gboolean any = request.delete || request.delete_alone || request.locate || request.add || request.soft ||
+                 request.level || request.set || request.patient || request.hold || request.instrument ||
+                 request.fluid || request.mirror || request.copy || request.port || request.texture ||
+                 request.placing.move || request.placing.turn || request.placing.scale || request.placing.align ||
+                 request.probe || request.forget_pose || request.keep_pose;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
-        _("spore edit: nothing is asked for; expected --delete, --locate, --add, --soft, --level, --set, --patient, "
+        _("spore edit: nothing is asked for; expected --delete, --delete-alone, --locate, --add, --soft, --level, "
+          "--set, --patient, "
           "--hold, "
           "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align, --probe, "
           "--forget-pose or --keep-pose; give one of them"));
@@ -531,6 +542,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);
   g_free(request.keep_pose);
+  g_strfreev(request.delete_alone);
   g_strfreev(request.locate);
   g_strfreev(request.add);
   g_strfreev(request.soft);

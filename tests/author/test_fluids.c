@@ -195,7 +195,7 @@ static void test_irrigation(void) {
   guint32 id = spore_object_id(body);
   g_array_append_val(ids, id);
   g_assert_true(spore_document_set_text(scene.document, emitter, "trigger", "second_button", NULL));
-  g_assert_true(spore_edit_delete(scene.document, ids, NULL));
+  g_assert_true(spore_edit_delete(scene.document, ids, FALSE, NULL, NULL));
   g_autofree char *after = fixture_format(scene.document);
   g_assert_null(spore_document_find(scene.document, "body", "water"));
   g_assert_null(strstr(after, "jet"));

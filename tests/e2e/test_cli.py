@@ -1817,9 +1817,13 @@ def an_instrument_is_deleted_whole():
     refuses("edit", at, "--delete", "bodies/bra", says=["nothing of that name to delete"])
     text = at.read_text().replace("</bodies>", '<body name="block" role="unmovable"/></bodies>').replace("</links>", '<pin name="other" body="block"/></links>')
     at.write_text(text)
-    report("edit", at, "--delete", "bodies/bar")
-    tree = xml.etree.ElementTree.parse(at).getroot()
+    report("edit", at, "--delete-alone", "bodies/bar", "-o", at.with_name("kept.spore"))
+    tree = xml.etree.ElementTree.parse(at.with_name("kept.spore")).getroot()
     assert [pin.get("name") for pin in tree.findall("links/pin")] == ["other"] and tree.find("assets/tetrahedra") is not None
+    at.write_text(at.read_text().replace('<body name="block"', '<body name="twin"><collision spheres="felt"/></body><body name="block"').replace(
+        "</spore>", '<exercise><touched name="cut" body="bar"/><touched name="rest" body="block" after="cut"/></exercise></spore>'))
+    assert report("edit", at, "--delete", "bodies/bar")["changed"] == ["bodies/bar", "exercise/cut", "assets/cells"], "the spheres are the twin's too"
+    assert 'after=' not in at.read_text() and report("edit", at, "--delete", "bodies/twin")["changed"] == ["bodies/twin", "assets/felt"]
 
 
 @check

@@ -2163,7 +2163,7 @@ def rows_of_the_outliner_are_ordered():
 
 @check
 def what_nothing_holds_is_offered_to_be_held():
-    """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not."""
+    """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not; what goes along with a body that is deleted is told, and kept if that is wanted."""
     path = write_scene("loose", "<rigid_body/>")
     with start(path) as editor:
         ui.wait(lambda: editor.row("ball"), "the scene")
@@ -2177,7 +2177,16 @@ def what_nothing_holds_is_offered_to_be_held():
         ui.wait(lambda: "<pin " in saved(editor, "held"), "the pin")
         ui.wait(lambda: not editor.look("label", "Nothing holds"), "the offer to go")
         editor.act("undo")
-        assert "<pin " not in saved(editor, "let_go")
+        ui.wait(lambda: editor.enabled("redo"), "the pin to go")
+        editor.act("select", "s", "bodies/ball")
+        editor.act("delete")
+        editor.find("label", "^[0-9] things went along, since nothing else uses them: .*Mesh ball")
+        keep_picture(editor, "along")
+        ui.wait(lambda: not editor.row("one"), "its spheres to go")
+        editor.press(editor.find("push button", "^Keep them$"))
+        ui.wait(lambda: editor.row("one"), "its spheres to come back")
+        text = saved(editor, "let_go")
+        assert "<pin " not in text and '<body name="ball"' not in text and '<mesh name="ball"' in text
 
 
 @check
