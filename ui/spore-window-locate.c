@@ -54,10 +54,7 @@ static void located(SporeJob *job, gpointer data, const GError *error, gpointer 
   SporeWindow *self = owner;
   SporeLocateWork *work = data;
   g_autoptr(GError) failure = NULL;
-  if (spore_window_failed(self, error) || !self->document) {
-    gtk_widget_set_visible(self->missing_bar, self->missing > 0);
-    return;
-  }
+  if (spore_window_failed(self, error) || !self->document) return;
   if (spore_locate_work_apply(work, spore_editor_document_get(self->document), &failure))
     tell_located(self, spore_locate_work_found(work));
   else spore_window_failed(self, failure);
@@ -97,7 +94,6 @@ void spore_window_ask_to_locate(SporeWindow *self) {
   g_autofree char *patterns = dot ? g_strdup_printf("*%s *%s", dot, upper) : g_strdup("*");
   g_autofree char *file = spore_window_choose_to_open(self, title, patterns, _("Files of its kind"));
   if (file) locate(self, wanted, file);
-  else gtk_widget_show(self->missing_bar);
 }
 
 static void act_locate(GSimpleAction *action, GVariant *parameter, gpointer data) {

@@ -70,8 +70,8 @@ static void hold_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
 }
 
 static void missing_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
-  gtk_widget_hide(GTK_WIDGET(bar));
   if (response == GTK_RESPONSE_ACCEPT) spore_window_ask_to_locate(self);
+  else gtk_widget_hide(GTK_WIDGET(bar));
 }
 
 static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, SporeWindow *self) {
