@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "tests/render/scenery.h"
 
 static const float red[3] = {0.7f, 0.02f, 0.02f}, blue[3] = {0.02f, 0.02f, 0.7f};
@@ -71,6 +72,67 @@ static void test_impostors_full(void) { check_impostors(TRUE, 0); }
 static void test_impostors_through_lens(void) {
   check_impostors(FALSE, 0.35);
   check_impostors(TRUE, 0.35);
+}
+
+/* A ball of count x count quadrilaterals, squeezed along y. */
+static SporeTriangleMesh fine_ball(guint32 count, double squeeze) {
+  SporeTriangleMesh mesh = {.vertex_count = (gsize)count * count, .triangle_count = 2 * (gsize)(count - 1) * count};
+  mesh.vertices = spore_allocate(3 * mesh.vertex_count, sizeof *mesh.vertices);
+  mesh.triangles = spore_allocate(3 * mesh.triangle_count, sizeof *mesh.triangles);
+  guint32 *out = mesh.triangles;
+  for (guint32 r = 0; r < count; r++)
+    for (guint32 s = 0; s < count; s++) {
+      double down = G_PI * (r + 0.5) / count, round = 2 * G_PI * s / count;
+      SporeVec3 place = {sin(down) * cos(round), squeeze * cos(down), -sin(down) * sin(round)};
+      spore_vec3_store(mesh.vertices + 3 * (gsize)(r * count + s), spore_vec3_scale(0.05, place));
+      guint32 a = r * count + s, b = a + count, next = (s + 1) % count - s;
+      const guint32 two[6] = {a, b, b + next, a, b + next, a + next};
+      if (r + 1 < count) memcpy(out, two, sizeof two), out += 6;
+    }
+  return mesh;
+}
+
+static Picture draw_coarse(const Bench *bench, gboolean coarse) {
+  const SporeCamera camera = straight_camera(0.2);
+  const SporeRenderOptions options = {.width = PICTURE_WIDTH, .height = PICTURE_HEIGHT, .coarse = coarse};
+  Picture picture = {PICTURE_WIDTH, PICTURE_HEIGHT, g_malloc(4 * PICTURE_WIDTH * PICTURE_HEIGHT)};
+  GError *error = NULL;
+  spore_renderer_draw(bench->renderer, &camera, &options, picture.pixels, 4 * PICTURE_WIDTH, &error);
+  g_assert_no_error(error);
+  return picture;
+}
+
+/* A coarse picture has fewer triangles of a fine surface and looks alike, also when the surface moves; others stay as
+ * they are. */
+static void test_coarse(void) {
+  const SporeSurfaceStyle style = {.colour = {0.5f, 0.1f, 0.1f}, .wetness = 0.5f};
+  gsize whole, coarse;
+  Bench bench = bench_open();
+  SporeTriangleMesh organ = make_organ(0.05), fine = fine_ball(160, 1), moved = fine_ball(160, 0.6);
+  guint small = spore_renderer_add_surface(bench.renderer, organ.vertices, organ.vertex_count, organ.triangles,
+                                           organ.triangle_count, &style);
+  spore_renderer_count_triangles(bench.renderer, &whole, &coarse);
+  g_assert_cmpuint(coarse, ==, whole);
+  spore_renderer_set_visible(bench.renderer, small, FALSE);
+  guint handle = spore_renderer_add_surface(bench.renderer, fine.vertices, fine.vertex_count, fine.triangles,
+                                            fine.triangle_count, &style);
+  spore_renderer_count_triangles(bench.renderer, &whole, &coarse);
+  g_assert_cmpuint(whole, ==, fine.triangle_count);
+  g_assert_cmpuint(coarse, <, whole / 2);
+  for (int squeezed = 0; squeezed < 2; squeezed++) {
+    if (squeezed) spore_renderer_move_surface(bench.renderer, handle, moved.vertices);
+    Picture a = draw_coarse(&bench, FALSE), b = draw_coarse(&bench, TRUE);
+    PictureDifference difference = picture_compare(&a, &b);
+    g_test_message("%zu of %zu triangles: mean %.2f", coarse, whole, difference.mean);
+    g_assert_cmpfloat(difference.mean, <, 1);
+    g_assert_cmpfloat(difference.mean, >, 0);
+    picture_clear(&a);
+    picture_clear(&b);
+  }
+  spore_triangle_mesh_clear(&organ);
+  spore_triangle_mesh_clear(&fine);
+  spore_triangle_mesh_clear(&moved);
+  bench_close(&bench);
 }
 
 /* Rows of the picture that a line across it takes. */
@@ -509,6 +571,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/clip", test_clip);
   g_test_add_func("/render/renderer/caps", test_caps);
   g_test_add_func("/render/renderer/tint", test_tint);
+  g_test_add_func("/render/renderer/coarse", test_coarse);
   g_test_add_func("/render/renderer/scale", test_scale);
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);

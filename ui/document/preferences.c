@@ -29,7 +29,8 @@ const SporePreference spore_preferences[] = {
      .choices = {{"nearer", N_("Goes nearer")}, {"farther", N_("Goes farther away")}}},
     {.name = "pictures",
      .label = N_("Quality of pictures"),
-     .doc = N_("Fine ones have soft shadows and smooth edges; without a graphics card each takes long"),
+     .doc = N_("Fine ones have soft shadows, smooth edges and all triangles of fine meshes; without a graphics card "
+               "each takes long"),
      .choices = {{"automatic", N_("Fine where there is a graphics card")},
                  {"fine", N_("Always fine")},
                  {"plain", N_("Always plain")}}},

@@ -117,6 +117,7 @@ static void count_faces(const SporeSurfaceGroup *surface, const SporeFrame *fram
   glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
   glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
   glBindVertexArray(surface->vertex_array);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface->indices);
   glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
   spore_frame_clip(frame, FALSE);
   glDisable(GL_DEPTH_CLAMP);

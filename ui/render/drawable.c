@@ -34,8 +34,8 @@ gboolean spore_drawables_show(const GPtrArray *drawables, SporeDrawableKind kind
 }
 
 static void free_surface(SporeSurfaceGroup *surface) {
-  GLuint buffers[] = {surface->moving, surface->rest,    surface->values,
-                      surface->stain,  surface->indices, surface->places};
+  GLuint buffers[] = {surface->moving,  surface->rest,   surface->values, surface->stain,
+                      surface->indices, surface->places, surface->coarse};
   glDeleteBuffers(G_N_ELEMENTS(buffers), buffers);
   glDeleteVertexArrays(1, &surface->vertex_array);
   g_free(surface->triangles);

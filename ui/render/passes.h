@@ -68,6 +68,7 @@ typedef struct SporeFrame {
   SporeFrameBlock block;
   SporeVec3 eye;    /* world, m */
   double near, far; /* m */
+  gboolean coarse;  /* fine surfaces are drawn with fewer triangles */
   float line_scale; /* pixels in one of a line's width */
   SporeClip clip;   /* in the world */
   gboolean clips;   /* something may be hidden by the plane */
@@ -101,7 +102,9 @@ typedef struct SporeSurfaceGroup {
   GLuint vertex_array, moving, rest, values, stain, indices; /* values, stain: 0: has none */
   gsize vertex_count, triangle_count;
   guint32 *triangles; /* triangle_count x 3 */
-  double *normals;    /* vertex_count x 3 */
+  GLuint coarse;      /* indices of fewer triangles; 0: it is always drawn whole */
+  gsize coarse_count;
+  double *normals; /* vertex_count x 3 */
   /* Of a textured surface: its vertices as they are drawn, one for each place that a vertex has in the texture. */
   const SporeTextureImage *texture; /* borrowed; NULL: the surface has none, and the vertices are drawn as they are */
   GLuint places;
@@ -144,6 +147,12 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
 /* Lays a texture over a new surface. places: triangle_count x 3 x 2; vertices: as given to spore_surface_new. */
 void spore_surface_lay(SporeSurfaceGroup *surface, const double *vertices, const SporeTextureImage *texture,
                        const float *places);
+/* Makes the triangles that stand in for those of a fine surface. vertices: as given to spore_surface_new. */
+void spore_surface_make_coarse(SporeSurfaceGroup *surface, const double *vertices);
+/* How many triangles a picture of that frame draws of it. */
+static inline gsize spore_surface_shown(const SporeSurfaceGroup *surface, gboolean coarse) {
+  return coarse && surface->coarse && !surface->texture ? surface->coarse_count : surface->triangle_count;
+}
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
 /* values: NULL: it has none any more. */
 void spore_surface_value(SporeSurfaceGroup *surface, const float *values);

@@ -228,6 +228,16 @@ void spore_renderer_clear(SporeRenderer *renderer) {
   g_ptr_array_set_size(renderer->canvas.drawables, 0);
 }
 
+void spore_renderer_count_triangles(const SporeRenderer *renderer, gsize *whole, gsize *coarse) {
+  *whole = *coarse = 0;
+  for (guint i = 0; i < renderer->canvas.drawables->len; i++) {
+    const SporeDrawable *drawable = renderer->canvas.drawables->pdata[i];
+    if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
+    *whole += spore_surface_shown((const SporeSurfaceGroup *)drawable, FALSE);
+    *coarse += spore_surface_shown((const SporeSurfaceGroup *)drawable, TRUE);
+  }
+}
+
 /* Drawing. */
 
 static void set_state(void) {

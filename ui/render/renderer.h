@@ -106,12 +106,15 @@ typedef struct SporeRenderOptions {
   int width, height;
   gboolean grid; /* floor grid and axes: editing; off for pictures. Never clipped */
   gboolean antialias;
-  int scale;      /* pixels of the picture in one of the widget's: lines are so much wider; 0: 1 */
-  gboolean light; /* the room around the scene, as for print; else dark, as a body is */
-  SporeClip clip; /* closed surfaces that it cuts are filled there; others are seen from inside */
+  gboolean coarse; /* surfaces of very many triangles are drawn with fewer of them */
+  int scale;       /* pixels of the picture in one of the widget's: lines are so much wider; 0: 1 */
+  gboolean light;  /* the room around the scene, as for print; else dark, as a body is */
+  SporeClip clip;  /* closed surfaces that it cuts are filled there; others are seen from inside */
 } SporeRenderOptions;
 /* A software driver compiles a program when it first draws with it, for a hundred times as long as it draws: makes
  * those ready that pictures without antialias are drawn with. Another driver has nothing to gain. */
+/* Triangles of the surfaces that are shown, and how many of them a coarse picture draws. */
+void spore_renderer_count_triangles(const SporeRenderer *renderer, gsize *whole, gsize *coarse);
 gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error);
 /* Begins a picture, which the driver draws while the caller goes on. What was begun before and not read is forgotten.
  */

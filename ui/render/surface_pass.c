@@ -134,6 +134,7 @@ SporeSurfaceGroup *spore_surface_new(const double *vertices, gsize vertex_count,
   upload_rest(surface, vertices);
   spore_surface_move(surface, vertices);
   describe_vertices(surface);
+  spore_surface_make_coarse(surface, vertices);
   if (values) spore_surface_value(surface, values);
   return surface;
 }
@@ -264,7 +265,9 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   glBindVertexArray(surface->vertex_array);
   if (!surface->values) glVertexAttrib1f(VALUE, -1);
   if (!surface->stain) glVertexAttrib1f(STAIN, 0);
-  glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
+  gsize shown = spore_surface_shown(surface, frame->coarse);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shown < surface->triangle_count ? surface->coarse : surface->indices);
+  glDrawElements(GL_TRIANGLES, (GLsizei)(3 * shown), GL_UNSIGNED_INT, NULL);
 }
 
 static gboolean is_drawn(const SporeDrawable *drawable, gboolean colours) {

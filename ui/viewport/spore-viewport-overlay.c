@@ -264,9 +264,19 @@ static void append_gaps(GString *text) {
   g_string_append_printf(text, _("The window stood still for %.0f ms (%s)"), longest->longest_ms, longest->what);
 }
 
+/* Whether fine surfaces are drawn with fewer triangles than they have. */
+static void append_triangles(GString *text, SporeViewport *self) {
+  gsize whole, coarse;
+  if (!self->renderer || spore_viewport_is_fine(self)) return;
+  spore_renderer_count_triangles(self->renderer, &whole, &coarse);
+  if (coarse == whole) return;
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Plain pictures: %zu of %zu triangles are drawn"), coarse, whole);
+}
+
 /* What an author wants to know, and a clinician does not. */
-static void append_figures(GString *text, const SporeSession *session, const SporeSnapshot *snapshot,
-                           const SporeSessionFigures *figures) {
+static void append_figures(GString *text, SporeViewport *self, const SporeSession *session,
+                           const SporeSnapshot *snapshot, const SporeSessionFigures *figures) {
   const SporeWorld *world = spore_session_simulation(session)->world;
   double factor = spore_session_real_time_factor(session);
   guint64 late, steps;
@@ -295,6 +305,7 @@ static void append_figures(GString *text, const SporeSession *session, const Spo
   append_solver(text, world, snapshot, figures);
   append_energy(text, snapshot, figures);
   append_levels(text, world, snapshot);
+  append_triangles(text, self);
   append_gaps(text);
 }
 
@@ -328,7 +339,7 @@ void spore_viewport_overlay_update(SporeViewport *self) {
     append_opening(text, self);
   }
   append_unsolved(text, world, &figures);
-  if (self->figures) append_figures(text, session, snapshot, &figures);
+  if (self->figures) append_figures(text, self, session, snapshot, &figures);
   gtk_label_set_text(GTK_LABEL(self->hud), text->str);
   g_string_free(text, TRUE);
 }

@@ -26,7 +26,7 @@ void spore_viewport_drop_drawing(SporeViewport *self) {
   self->drawing.of = NULL;
 }
 
-static gboolean is_fine(SporeViewport *self) {
+gboolean spore_viewport_is_fine(SporeViewport *self) {
   if (self->habits.pictures == SPORE_PICTURES_AUTOMATIC) return !spore_offscreen_is_software(self->offscreen);
   return self->habits.pictures == SPORE_PICTURES_FINE;
 }
@@ -36,7 +36,8 @@ static void begin(SporeViewport *self, SporeViewportPicture *picture, const Spor
   SporeRenderOptions options = {width,
                                 height,
                                 .grid = !self->presented,
-                                .antialias = is_fine(self),
+                                .antialias = spore_viewport_is_fine(self),
+                                .coarse = !spore_viewport_is_fine(self),
                                 .scale = gtk_widget_get_scale_factor(self->area),
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;

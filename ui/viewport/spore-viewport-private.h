@@ -169,6 +169,8 @@ void spore_viewport_prepare_graphics(SporeViewport *self);
 void spore_viewport_wait_for_graphics(SporeViewport *self);
 
 /* spore-viewport-picture.c: what is drawn of the stage. */
+/* Whether pictures of the view are fine, by the user's choice or the graphics device. There is one. */
+gboolean spore_viewport_is_fine(SporeViewport *self);
 /* Draws the camera's picture where it is stale, and paints it over the area. There is a renderer. */
 void spore_viewport_paint(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera,
                           GtkWidget *area, cairo_t *cr);
