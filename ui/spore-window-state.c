@@ -31,13 +31,23 @@ void spore_window_show_tab(SporeWindow *self, GtkWidget *what) {
   gtk_stack_set_visible_child(GTK_STACK(self->tabs), what);
 }
 
+/* GTK complains of a name whose target it does not have yet. */
+static void set_remedy(GtkActionable *button, const char *action) {
+  g_autofree char *name = NULL;
+  g_autoptr(GVariant) target = NULL;
+  if (action) g_action_parse_detailed_name(action, &name, &target, NULL);
+  gtk_actionable_set_action_name(button, NULL);
+  gtk_actionable_set_action_target_value(button, target);
+  gtk_actionable_set_action_name(button, name);
+}
+
 void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
                                  const char *action) {
   self->cause = cause;
   gtk_label_set_text(GTK_LABEL(self->message), message);
   gtk_widget_set_visible(self->message_remedy, remedy != NULL);
   if (remedy) gtk_button_set_label(GTK_BUTTON(self->message_remedy), remedy);
-  gtk_actionable_set_detailed_action_name(GTK_ACTIONABLE(self->message_remedy), action);
+  set_remedy(GTK_ACTIONABLE(self->message_remedy), action);
   gtk_widget_show(self->message_bar);
   spore_window_log(self, "%s", message);
 }
