@@ -6,10 +6,11 @@
 
 #include "core/scene/compile.h"
 #include "core/scene/generated.h"
+#include "ui/document/asset-readers.h"
 
 char *spore_mesh_facts(const SporeTriangleMesh *mesh) {
   SporeMeshReport report;
-  if (!spore_triangle_mesh_report(mesh, &report, NULL)) return NULL;
+  if (!spore_editor_mesh_report(mesh, &report)) return NULL;
   return g_strdup_printf(_("%zu triangles, %.3g × %.3g × %.3g mm, %s"), mesh->triangle_count,
                          1e3 * (report.upper[0] - report.lower[0]), 1e3 * (report.upper[1] - report.lower[1]),
                          1e3 * (report.upper[2] - report.lower[2]), report.closed ? _("closed") : _("not closed"));
