@@ -44,7 +44,8 @@
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-reach, show-figures (state), box-select (state: of the next drag),
- *               colours [s "none", "strain", "stress" or "velocity"; state], keep-scale (state: of the colours), frame,
+ *               colours [s "none", "strain", "stress", "velocity" or "level"; state],
+ *               keep-scale (state: of the colours), frame,
  *               view [s "camera", "front", "back", "right", "left", "top" or "bottom"],
  *               show-outliner, show-inspector, show-problems, present (state), show-guide (state: the steps of the
  *               exercise while present is on), filter, hide, isolate (the selected bodies),

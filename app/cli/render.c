@@ -18,7 +18,7 @@ typedef struct RenderOptions {
   char *size, *output, *camera, *time, *beside, *clip, *reach, *field, *field_end;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
-  gboolean spheres, tetrahedra, light;
+  gboolean spheres, tetrahedra, contacts, light;
   SporeSceneOptions scene;
 } RenderOptions;
 
@@ -91,9 +91,10 @@ static gboolean parse_field(const RenderOptions *options, SporeReelKind kind, Sp
     if (g_str_equal(options->field, spore_stage_field_names[i])) shown->field = i;
   if (options->field && shown->field == SPORE_FIELD_NONE)
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--field",
-                             _("'%s' is nothing that colours show; expected strain, stress or velocity"),
+                             _("'%s' is nothing that colours show; expected strain, stress, velocity or level"),
                              options->field);
-  if (options->field && !options->field_end && (options->beside || kind != SPORE_REEL_PICTURE))
+  if (options->field && shown->field != SPORE_FIELD_LEVEL && !options->field_end &&
+      (options->beside || kind != SPORE_REEL_PICTURE))
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--field", "%s",
                              _("several pictures need one scale of colours; expected --field-end as well"));
   return parse_rate("--field-end", options->field_end, HIGHEST_FIELD, &shown->field_end, error);
@@ -117,7 +118,10 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                             .speed = 1,
                             .camera = options->camera,
                             .ports = options->reach,
-                            .shown = {.surfaces = TRUE, .spheres = options->spheres, .tetrahedra = options->tetrahedra},
+                            .shown = {.surfaces = TRUE,
+                                      .spheres = options->spheres,
+                                      .tetrahedra = options->tetrahedra,
+                                      .contacts = options->contacts},
                             .light = options->light,
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
@@ -212,11 +216,11 @@ static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *n
   return TRUE;
 }
 
-static void tell_field(SporeCli *cli, const char *field, const SporeStageLegend *legend) {
-  spore_cli_text(cli, "field", field);
-  if (legend->high) spore_cli_number(cli, "field_end", legend->end);
-  g_autofree char *text = spore_stage_legend_text(legend);
-  spore_cli_say(cli, "%s\n", text);
+/* The legends, which a picture has no room for. */
+static void tell_legends(SporeCli *cli, const char *field, const SporeFilmed *filmed) {
+  if (field) spore_cli_text(cli, "field", field);
+  if (filmed->field_end > 0) spore_cli_number(cli, "field_end", filmed->field_end);
+  spore_cli_say(cli, "%s", filmed->legends);
 }
 
 static void tell(SporeCli *cli, const char *output, const SporeFilmed *filmed) {
@@ -247,8 +251,8 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   if (options->reach && !tell_reach(cli, runs.runs[0]->document, options->reach, &error)) return spore_cli_fail(error);
   if (!spore_filming_run(&filming, spore_cli_progress(cli), &filmed, &error)) return spore_cli_fail(error);
   tell(cli, options->output, &filmed);
-  if (filmed.coloured) tell_field(cli, options->field, &filmed.legend);
-  spore_stage_legend_clear(&filmed.legend);
+  tell_legends(cli, options->field, &filmed);
+  g_free(filmed.legends);
   g_free(filmed.gl_renderer);
   return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }
@@ -270,7 +274,7 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"length_s", N_("of the film or the row, s; 0: a single picture")},
       {"gl_renderer", N_("what drew it")},
       {"reach", N_("with --reach, of each organ: body, share of its surface that is reached at the start")},
-      {"field", N_("what colours show: strain, stress or velocity, with --field")},
+      {"field", N_("what colours show: strain, stress, velocity or level, with --field")},
       {"field_end",
        N_("end of the scale of colours, which begins at 0; strain: 1 is 100 %; stress: Pa; velocity: m/s")},
       {NULL, NULL}};
@@ -307,13 +311,14 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
        "PORT"},
       {"field", 0, 0, G_OPTION_ARG_STRING, &options.field,
        N_("Colour soft bodies by strain (largest principal Green's strain), stress (von Mises, from the body's own "
-          "law) "
-          "or velocity"),
+          "law), "
+          "velocity, or level of detail"),
        "WHAT"},
       {"field-end", 0, 0, G_OPTION_ARG_STRING, &options.field_end,
        N_("End of the scale of colours, in SI units (0.2: 20 % strain); default: it follows the state that is shown"),
        "N"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
+      {"contacts", 0, 0, G_OPTION_ARG_NONE, &options.contacts, N_("Show contact forces"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};

@@ -2706,7 +2706,7 @@ def port_moved_in_the_view():
         editor.act("tool", "s", "edit")
         editor.find("label", "^Drag the handle of the port")
         editor.focus()
-        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        x, y, width, height = editor.place(editor.drawn_view())
         middle = x + width // 2, y + height // 2
 
         def port():
@@ -2819,6 +2819,12 @@ def colours_show_the_state():
         editor.act("colours", "s", "velocity")
         ui.wait(says(r"^Speed: 0 to "), "speed")
         keep_picture(editor, "colours-speed")
+        editor.act("colours", "s", "level")
+        ui.wait(says("^Level of detail: nothing here has several levels$"), "levels")
+        editor.act("show-contacts")
+        editor.act("show-spheres")
+        editor.drawn_view()
+        keep_picture(editor, "legends")
         editor.act("colours", "s", "none")
         ui.wait(says("^$"), "the legend to go")
 

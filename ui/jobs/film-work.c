@@ -95,6 +95,7 @@ void spore_film_work_free(gpointer data) {
     g_free(work->input_files[i]);
   }
   g_free(work->filmed.gl_renderer);
+  g_free(work->filmed.legends);
   g_free(work->file);
   g_free(work);
   spore_work_end();

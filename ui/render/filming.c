@@ -80,7 +80,7 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
     *filmed =
         (SporeFilmed){spore_panes_width(panes), filming->height, count,
                       is_picture(filming) ? 0 : (double)count / filming->fps, g_strdup(spore_panes_renderer(panes))};
-    filmed->coloured = spore_panes_legend(panes, &filmed->legend);
+    filmed->legends = spore_panes_legends(panes, &filmed->field_end);
   }
   spore_reel_free(reel);
   spore_panes_free(panes);

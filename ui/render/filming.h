@@ -33,8 +33,8 @@ typedef struct SporeFilmed {
   guint64 pictures;
   double length_s;   /* of the film; 0: a single picture */
   char *gl_renderer; /* g_free */
-  gboolean coloured; /* whether there is a legend */
-  SporeStageLegend legend;
+  char *legends;     /* see spore_panes_legends; g_free */
+  double field_end;
 } SporeFilmed;
 
 /* The time of the last input that moves the simulation, s; 0: nothing does. */

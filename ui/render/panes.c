@@ -85,8 +85,10 @@ gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **er
   return TRUE;
 }
 
-gboolean spore_panes_legend(const SporePanes *panes, SporeStageLegend *legend) {
-  return spore_stage_legend(((const Pane *)panes->row->pdata[0])->stage, legend);
+char *spore_panes_legends(const SporePanes *panes, double *field_end) {
+  const Pane *first = panes->row->pdata[0];
+  *field_end = spore_stage_field_end(first->stage);
+  return spore_stage_legends_text(first->stage);
 }
 
 int spore_panes_width(const SporePanes *panes) { return panes->width * (int)panes->row->len; }

@@ -20,8 +20,9 @@ void spore_panes_free(SporePanes *panes); /* NULL is allowed */
  * by name; NULL: see spore_stage_camera. FALSE with a GError: no such camera. */
 gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimulation *simulation, const char *camera,
                          const SporeStageOptions *shown, GError **error);
-/* The legend of the first simulation's colours, see spore_stage_legend. */
-gboolean spore_panes_legend(const SporePanes *panes, SporeStageLegend *legend);
+/* Of the first simulation: the words of its legends, g_free, and the end of its scale of colours
+ * (spore_stage_legends_text, spore_stage_field_end). */
+char *spore_panes_legends(const SporePanes *panes, double *field_end);
 int spore_panes_width(const SporePanes *panes);            /* of the whole picture */
 const char *spore_panes_renderer(const SporePanes *panes); /* GL_RENDERER */
 /* The simulations as they are now: rows of 4 * width bytes, as spore_renderer_draw gives them. Valid until the next

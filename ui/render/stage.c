@@ -72,11 +72,14 @@ static void show_contacts(SporeStage *stage, const SporeSnapshot *snapshot) {
   double longest = 0.25 * spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
   gsize count = MIN(snapshot->contact_count, snapshot->contact_capacity);
   g_array_set_size(stage->contacts, (guint)(6 * count));
+  stage->contact_longest = longest;
+  stage->contact_most = 0;
   double *out = (double *)stage->contacts->data;
   for (gsize i = 0; i < count; i++, out += 6) {
     const SporeSnapshotContact *contact = &snapshot->contacts[i];
     double force = spore_vec3_length(contact->force);
     double scale = longest / (1 + force); /* 1 N is half of the longest */
+    stage->contact_most = MAX(stage->contact_most, force);
     spore_vec3_store(out, contact->point);
     spore_vec3_store(out + 3, spore_vec3_add_scaled(contact->point, scale, contact->force));
   }

@@ -14,6 +14,7 @@ typedef enum SporeStageField {
   SPORE_FIELD_STRAIN,   /* largest principal Green's strain */
   SPORE_FIELD_STRESS,   /* von Mises' stress of Cauchy's stress, by the body's own law, Pa */
   SPORE_FIELD_VELOCITY, /* speed, m/s */
+  SPORE_FIELD_LEVEL,    /* level of detail, of bodies that have several */
   SPORE_FIELD_COUNT
 } SporeStageField;
 extern const char *const spore_stage_field_names[]; /* by field, then NULL; for options and actions */
@@ -75,15 +76,21 @@ SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
 /* What the colours of surfaces say; translated texts. */
 typedef struct SporeStageLegend {
   char *label;   /* what is measured */
-  char *high;    /* at the end of the scale, with its unit; the scale begins at 0. NULL: no body has colours */
-  char *range;   /* whether the scale is fixed */
-  char *without; /* the soft bodies of which it is not known; NULL: there are none */
+  char *low;     /* at the beginning of the scale */
+  char *high;    /* at the end of the scale, with its unit. NULL: there is no scale, or no body has its colours */
+  char *range;   /* what there is to say of the scale; NULL: nothing */
+  char *without; /* the soft bodies of which it is not known, or another remark; NULL: none */
   double end;    /* SI */
 } SporeStageLegend;
 /* FALSE: no field is shown. To be freed by spore_stage_legend_clear. */
 gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend);
 /* All of it in words, translated; g_free. */
 char *spore_stage_legend_text(const SporeStageLegend *legend);
+/* The words of all legends of what is shown, a line each; g_free. */
+char *spore_stage_legends_text(const SporeStage *stage);
+/* The same of the spheres' errors (spore_stage_sphere_scale), and of the lines of contact forces. */
+gboolean spore_stage_sphere_legend(const SporeStage *stage, SporeStageLegend *legend);
+gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *legend);
 /* The end of the scale that is shown, SI; 0: none is. */
 double spore_stage_field_end(const SporeStage *stage);
 void spore_stage_legend_clear(SporeStageLegend *legend);

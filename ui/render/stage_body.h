@@ -91,6 +91,7 @@ struct SporeStage {
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
   GArray *contacts;                     /* double: segments of the contacts shown */
+  double contact_longest, contact_most; /* m: no line is longer; N: the largest force shown */
   const SporeStageCandidate *candidate; /* NULL: none */
   guint candidate_handles[5];           /* spheres, the marked one, surface, edges, lines; 0: none */
   double field_end;                     /* of the scale of colours that is shown; 0: none is */

@@ -6,6 +6,7 @@
 
 #include "core/body/cell_fields.h"
 #include "core/scene/fidelity.h"
+#include "core/scene/length_unit.h"
 #include "core/scene/level_settings.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/stage_body.h"
@@ -13,14 +14,17 @@
 #define MOMENT_S 1e-6  /* over which points that follow frames are moved along v */
 #define NAMES_SHOWN 2u /* bodies that a legend names */
 
-const char *const spore_stage_field_names[] = {"none", "strain", "stress", "velocity", NULL};
+const char *const spore_stage_field_names[] = {"none", "strain", "stress", "velocity", "level", NULL};
 
 /* What is measured; the scale's end is never less than `least`, so that rounding at rest shows nothing. */
 static const struct {
   const char *label;
   double least;
-} fields[SPORE_FIELD_COUNT] = {
-    {NULL, 0}, {N_("Largest strain (Green)"), 0.01}, {N_("Stress, von Mises (Cauchy)"), 1}, {N_("Speed"), 1e-3}};
+} fields[SPORE_FIELD_COUNT] = {{NULL, 0},
+                               {N_("Largest strain (Green)"), 0.01},
+                               {N_("Stress, von Mises (Cauchy)"), 1},
+                               {N_("Speed"), 1e-3},
+                               {N_("Level of detail"), SPORE_LOD_FINE}};
 
 /* Of a body, while colours are shown. */
 struct SporeStageShade {
@@ -51,7 +55,7 @@ void spore_stage_body_free_shade(SporeStageBody *body) { free_shade(body); }
 static const SporeModel *soft_model(const SporeStage *stage, const SporeStageBody *body) {
   if (!stage->simulation || body->world_body == SPORE_NO_BODY || !body->surface_handle || body->liquid) return NULL;
   const SporeModel *model = spore_world_lod_model(stage->simulation->world, body->world_body, body->level);
-  return model && model->q_room > RIGID_ROOM ? model : NULL;
+  return model && (model->q_room > RIGID_ROOM || stage->options.field == SPORE_FIELD_LEVEL) ? model : NULL;
 }
 
 /* Elements. */
@@ -182,6 +186,19 @@ static gboolean shade_by_velocity(const SporeStage *stage, const SporeStageBody 
   return TRUE;
 }
 
+/* Levels of detail. */
+
+static gboolean has_levels(const SporeStage *stage, const SporeStageBody *body) {
+  for (int level = 0; level < SPORE_LOD_FINE && body->world_body != SPORE_NO_BODY; level++)
+    if (spore_world_lod_model(stage->simulation->world, body->world_body, (SporeLodGrade)level)) return TRUE;
+  return FALSE;
+}
+
+static gboolean shade_by_level(const SporeStage *stage, const SporeStageBody *body) {
+  for (gsize i = 0; i < body->surface.count; i++) body->shade->values[i] = body->level;
+  return has_levels(stage, body);
+}
+
 /* All bodies. */
 
 static gboolean measure(const SporeStage *stage, SporeStageBody *body, const SporeModel *model,
@@ -191,6 +208,8 @@ static gboolean measure(const SporeStage *stage, SporeStageBody *body, const Spo
     return shade_by_cells(stage, body, model, snapshot) || shade_by_surface(body);
   case SPORE_FIELD_STRESS:
     return shade_by_cells(stage, body, model, snapshot);
+  case SPORE_FIELD_LEVEL:
+    return shade_by_level(stage, body);
   default:
     return shade_by_velocity(stage, body, model, snapshot);
   }
@@ -224,6 +243,7 @@ static double round_up(double value) {
 
 static double find_end(const SporeStage *stage) {
   double most = fields[stage->options.field].least;
+  if (stage->options.field == SPORE_FIELD_LEVEL) return most;
   if (stage->options.field_end > 0) return stage->options.field_end;
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
@@ -265,8 +285,6 @@ void spore_stage_drop_field(SporeStage *stage) {
   }
 }
 
-double spore_stage_field_end(const SporeStage *stage) { return stage->field_end; }
-
 /* The legend. */
 
 static char *figure_of(SporeStageField field, double value) {
@@ -304,14 +322,31 @@ static gboolean any_coloured(const SporeStage *stage) {
   return FALSE;
 }
 
+double spore_stage_field_end(const SporeStage *stage) { return any_coloured(stage) ? stage->field_end : 0; }
+
+/* Only bodies with several levels have colours: what others are drawn in says nothing. */
+static void describe_levels(const SporeStage *stage, SporeStageLegend *legend) {
+  legend->end = SPORE_LOD_FINE;
+  legend->low = g_strdup(_("coarse"));
+  if (any_coloured(stage)) legend->high = g_strdup(_("fine"));
+  else if (stage->field_end > 0) legend->without = g_strdup(_("nothing here has several levels"));
+  else legend->without = g_strdup(_("known once the scene runs"));
+}
+
 gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend) {
   SporeStageField field = stage->options.field;
   *legend = (SporeStageLegend){0};
   if (field == SPORE_FIELD_NONE) return FALSE;
-  g_autofree char *without = name_uncoloured(stage);
   legend->label = g_strdup(_(fields[field].label));
+  if (field == SPORE_FIELD_LEVEL) {
+    describe_levels(stage, legend);
+    return TRUE;
+  }
+  g_autofree char *without = name_uncoloured(stage);
+  legend->low = g_strdup("0");
   legend->high = any_coloured(stage) ? figure_of(field, stage->field_end) : NULL;
-  legend->range = g_strdup(stage->options.field_end > 0 ? _("fixed scale") : _("scale follows the state"));
+  if (legend->high)
+    legend->range = g_strdup(stage->options.field_end > 0 ? _("fixed scale") : _("scale follows the state"));
   if (without)
     legend->without = field == SPORE_FIELD_STRESS ? g_strdup_printf(_("no stress in its law: %s"), without)
                                                   : g_strdup_printf(_("not known of: %s"), without);
@@ -321,14 +356,53 @@ gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend) {
   return TRUE;
 }
 
+gboolean spore_stage_sphere_legend(const SporeStage *stage, SporeStageLegend *legend) {
+  SporeSphereScale scale = spore_stage_sphere_scale(stage);
+  *legend = (SporeStageLegend){0};
+  if (!(scale.share > 0)) return FALSE;
+  legend->label = g_strdup(_("Depth error"));
+  legend->low = g_strdup("0");
+  legend->high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
+                                : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
+  return TRUE;
+}
+
+gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *legend) {
+  *legend = (SporeStageLegend){0};
+  if (!stage->options.contacts || !(stage->contact_longest > 0)) return FALSE;
+  g_autofree char *newton = spore_length_text(0.5 * stage->contact_longest);
+  legend->label = g_strdup(_("Contact forces"));
+  legend->range = g_strdup_printf(_("1 N is a line of %s"), newton);
+  legend->without = stage->contact_most > 0 ? g_strdup_printf(_("largest now: %.3g N"), stage->contact_most)
+                                            : g_strdup(_("nothing touches now"));
+  return TRUE;
+}
+
 char *spore_stage_legend_text(const SporeStageLegend *legend) {
-  g_autofree char *scale = legend->high ? g_strdup_printf(_("0 to %s (%s)"), legend->high, legend->range) : NULL;
-  return g_strdup_printf("%s: %s%s%s", legend->label, scale ? scale : "", scale && legend->without ? "; " : "",
+  g_autofree char *scale = legend->high ? g_strdup_printf(_("%s to %s"), legend->low, legend->high) : NULL;
+  g_autofree char *range = scale && legend->range ? g_strdup_printf("%s (%s)", scale, legend->range) : NULL;
+  const char *first = range ? range : scale ? scale : legend->range;
+  return g_strdup_printf("%s: %s%s%s", legend->label, first ? first : "", first && legend->without ? "; " : "",
                          legend->without ? legend->without : "");
+}
+
+char *spore_stage_legends_text(const SporeStage *stage) {
+  gboolean (*const kinds[])(const SporeStage *, SporeStageLegend *) = {spore_stage_legend, spore_stage_sphere_legend,
+                                                                       spore_stage_contact_legend};
+  GString *lines = g_string_new(NULL);
+  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) {
+    SporeStageLegend legend;
+    if (!kinds[i](stage, &legend)) continue;
+    g_autofree char *text = spore_stage_legend_text(&legend);
+    g_string_append_printf(lines, "%s\n", text);
+    spore_stage_legend_clear(&legend);
+  }
+  return g_string_free(lines, FALSE);
 }
 
 void spore_stage_legend_clear(SporeStageLegend *legend) {
   g_free(legend->label);
+  g_free(legend->low);
   g_free(legend->high);
   g_free(legend->range);
   g_free(legend->without);

@@ -130,6 +130,7 @@ static void draw_face(SporeViewport *self, cairo_t *cr, const Sight *sight, cons
 gboolean spore_viewport_draw_axes(GtkWidget *axes, cairo_t *cr, SporeViewport *self) {
   Sight sight = sight_of(self);
   gboolean anatomic = is_anatomic(self);
+  if (!self->renderer) return FALSE; /* there is no picture yet, or never */
   for (guint i = 0; i < G_N_ELEMENTS(faces); i++)
     if (facing(&sight, &faces[i]) > 0) draw_face(self, cr, &sight, &faces[i], anatomic);
   if (gtk_widget_has_visible_focus(axes))

@@ -13,6 +13,8 @@
 #define LEGEND_MARGIN 22
 #define LEGEND_HEIGHT 48
 #define LEGEND_LINE 18
+#define LEGEND_SCALE 31 /* the bar, and what stands at its ends */
+#define LEGEND_GAP 28   /* between two */
 #define ARROW_PIXELS_A_NEWTON 40.0
 #define ARROW_LONGEST_PIXELS 160.0
 
@@ -69,10 +71,17 @@ typedef struct Legend {
 
 static int count_notes(const Legend *legend) { return (legend->notes[0] != NULL) + (legend->notes[1] != NULL); }
 
+static gboolean has_bar(const Legend *legend) { return legend->scale || legend->tint; }
+
+/* Of the notes, and of what is missing above them. */
+static int height_below(const Legend *legend) {
+  return count_notes(legend) * LEGEND_LINE - (has_bar(legend) ? 0 : LEGEND_SCALE);
+}
+
 /* A dark box for a legend, at the lower right, above messages and beside the second view. FALSE: there is no room. */
 static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend,
                              double *left, double *top) {
-  int notes = count_notes(legend) * LEGEND_LINE;
+  int notes = height_below(legend);
   if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
   height -= gtk_widget_get_allocated_height(self->messages);
   *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT - notes;
@@ -109,15 +118,20 @@ static void draw_bar(cairo_t *cr, const Legend *legend, double left, double top)
   }
 }
 
-static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend) {
+/* Returns the height that the legend takes. */
+static int draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend) {
   double left, top;
-  if (!place_legend(self, cr, width, height, legend, &left, &top)) return;
-  if (legend->scale || legend->tint) draw_bar(cr, legend, left, top);
+  if (!place_legend(self, cr, width, height, legend, &left, &top)) return 0;
+  gboolean bar = has_bar(legend);
+  double below = bar ? top + 13 : top;
+  if (bar) draw_bar(cr, legend, left, top);
   write_legend(self, cr, legend->label, left, top - 21, 0);
-  if (legend->low) write_legend(self, cr, legend->low, left, top + 13, 0);
-  if (legend->high) write_legend(self, cr, legend->high, left, top + 13, 1);
+  if (legend->low) write_legend(self, cr, legend->low, left, below, 0);
+  if (legend->high) write_legend(self, cr, legend->high, left, below, 1);
   for (int i = 0; i < count_notes(legend); i++)
-    write_legend(self, cr, legend->notes[i], left, top + 13 + (i + 1) * LEGEND_LINE, 0);
+    write_legend(self, cr, legend->notes[i], left, below + (i + (legend->low || legend->high ? 1 : 0)) * LEGEND_LINE,
+                 0);
+  return LEGEND_HEIGHT + LEGEND_GAP + height_below(legend);
 }
 
 /* Whoever does not see the colours reads what they say at the button that shows them. */
@@ -127,41 +141,59 @@ static void tell_field(SporeViewport *self, const SporeStageLegend *legend) {
   if (g_strcmp0(atk_object_get_description(button), text) != 0) atk_object_set_description(button, text);
 }
 
-static gboolean draw_field_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend field;
-  if (!self->stage || !spore_stage_legend(self->stage, &field)) {
-    tell_field(self, NULL);
-    return FALSE;
-  }
-  Legend legend = {.label = field.label, .high = field.high, .scale = field.high != NULL};
-  if (field.high) legend.low = "0", legend.notes[0] = field.range;
-  legend.notes[field.high ? 1 : 0] = field.without;
-  draw_legend(self, cr, width, height, &legend);
-  tell_field(self, &field);
-  spore_stage_legend_clear(&field);
-  return TRUE;
+/* Each returns the height that its legend takes, 0: there is none to draw. */
+
+static int draw_stage_legend(SporeViewport *self, cairo_t *cr, int width, int height, const SporeStageLegend *of) {
+  Legend legend = {.label = of->label, .low = of->high ? of->low : NULL, .high = of->high, .scale = of->high != NULL};
+  guint notes = 0;
+  if (of->range) legend.notes[notes++] = of->range;
+  if (of->without) legend.notes[notes++] = of->without;
+  return draw_legend(self, cr, width, height, &legend);
 }
 
-/* Draws the legend of the candidate's colours, else of the field's, else of the colours of the bodies' spheres, else of
- * the tint. */
+static int draw_field_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeStageLegend field;
+  gboolean shown = self->stage && spore_stage_legend(self->stage, &field);
+  tell_field(self, shown ? &field : NULL);
+  if (!shown) return 0;
+  int taken = draw_stage_legend(self, cr, width, height, &field);
+  spore_stage_legend_clear(&field);
+  return taken;
+}
+
+static int draw_sphere_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeStageLegend spheres;
+  if (!self->stage || !spore_stage_sphere_legend(self->stage, &spheres)) return 0;
+  int taken = draw_stage_legend(self, cr, width, height, &spheres);
+  spore_stage_legend_clear(&spheres);
+  return taken;
+}
+
+static int draw_contact_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeStageLegend contacts;
+  if (!self->stage || !spore_stage_contact_legend(self->stage, &contacts)) return 0;
+  int taken = draw_stage_legend(self, cr, width, height, &contacts);
+  spore_stage_legend_clear(&contacts);
+  return taken;
+}
+
+static int draw_reach_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  g_autofree char *tint = spore_viewport_reach_legend(self);
+  if (!tint) return 0;
+  Legend legend = {.label = tint, .low = _("at the start"), .tint = TRUE};
+  return draw_legend(self, cr, width, height, &legend);
+}
+
+/* Draws the legends of all that is shown, one above the other; those of what a candidate hides are left out. */
 static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
-  Legend legend = {.low = "0", .scale = TRUE};
+  static int (*const kinds[])(SporeViewport * self, cairo_t * cr, int width, int height) = {
+      draw_field_legend, draw_sphere_legend, draw_reach_legend, draw_contact_legend};
+  Legend legend = {.label = self->legend, .low = "0", .high = self->legend_high, .scale = TRUE};
   if (self->legend) {
-    legend.label = self->legend, legend.high = self->legend_high;
     draw_legend(self, cr, width, height, &legend);
-  } else if (draw_field_legend(self, cr, width, height)) {
     return;
-  } else if (scale.share > 0) {
-    g_autofree char *high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
-                                           : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
-    legend.label = _("Depth error"), legend.high = high;
-    draw_legend(self, cr, width, height, &legend);
-  } else {
-    g_autofree char *tint = spore_viewport_reach_legend(self);
-    legend = (Legend){.label = tint, .low = _("at the start"), .tint = TRUE};
-    if (tint) draw_legend(self, cr, width, height, &legend);
   }
+  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) height -= kinds[i](self, cr, width, height);
 }
 
 void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height) {
