@@ -52,11 +52,13 @@ static void queue_refresh(SporeInspector *self);
 
 /* Rows. */
 
-/* What an importer said of the object is shown where it stands, to be taken back; nobody says it by hand. */
+/* What an importer said of the object, or a command made, is shown where it stands, to be taken back; nobody says it by
+ * hand. */
 static gboolean is_absent_remark(const SporeObject *object, const SporeParameter *parameter) {
   if (strcmp(parameter->name, "name_guessed") == 0)
     return !(object && spore_object_number(object, parameter->name) != 0);
-  return strcmp(parameter->name, "texture_places") == 0 && !(object && spore_object_text(object, parameter->name));
+  static const char *const made[] = {"texture_places", "kept_pose", NULL}; /* files that commands make */
+  return g_strv_contains(made, parameter->name) && !(object && spore_object_text(object, parameter->name));
 }
 
 /* One row for each parameter of the table. object: NULL: it does not exist yet. */
