@@ -174,9 +174,10 @@ bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t strid
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
 /* Places on a body's spheres that a fluid may stain. */
 typedef struct SporeStainPlaces {
-  size_t start, count; /* in the stains of snapshots */
-  const double *rest;  /* count x 3, body's frame at rest, m; owned by the world, and never changed */
-  const float *out;    /* count x 3: unit vectors out of the body; likewise */
+  size_t start, count;   /* in the stains of snapshots */
+  const double *rest;    /* count x 3, body's frame at rest, m; owned by the world, and never changed */
+  const float *out;      /* count x 3: unit vectors out of the body; likewise */
+  const uint32_t *first; /* of each sphere the first of its places, and one more; likewise */
 } SporeStainPlaces;
 SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body);
 /* Mean stain of these places now, 0..1. A stain is seen and changes nothing else: state and hashes are without it. */

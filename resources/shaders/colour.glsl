@@ -1,5 +1,6 @@
 // From light to a pixel's colour, and noise for patterns.
 const float PI = 3.14159265;
+const vec3 blood_colour = vec3(0.24, 0.006, 0.006); // of what is wet with it
 
 // Filmic curve x(x + t) / (x(x + u) + v): a toe that keeps dark tissue dark, a shoulder that keeps highlights coloured.
 // A little of the brightest channel leaks into the others, as in film: strong red light turns toward white.

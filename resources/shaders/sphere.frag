@@ -1,5 +1,5 @@
 flat in vec4 v_sphere;
-flat in float v_value;
+flat in float v_value, v_stain;
 in vec3 v_ray;
 
 uniform vec3 colour;
@@ -40,7 +40,7 @@ void main() {
 #endif
 #if !DEPTH_ONLY
   vec3 normal = facing * (position - v_sphere.xyz) / v_sphere.w;
-  vec3 albedo = v_value >= 0.0 ? scale_colour(v_value) : colour;
+  vec3 albedo = v_value >= 0.0 ? scale_colour(v_value) : mix(colour, blood_colour, 0.9 * smoothstep(0.04, 0.8, 1.25 * v_stain));
 #if QUALITY
   float open = ambient_open(), lit = light_reaches(position, normal);
   vec3 outcome = shade_tissue(albedo, 0.35, position, normal, normal, open, lit);

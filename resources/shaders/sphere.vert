@@ -1,11 +1,12 @@
 // One instance a sphere: a square that faces the eye and just covers the sphere's outline in perspective.
 layout(location = 0) in vec4 sphere; // camera-relative centre needs `offset`; w: radius
 layout(location = 1) in float value;
+layout(location = 2) in float stain; // 0..1: how much blood covers it
 
 uniform vec3 offset;
 
 flat out vec4 v_sphere; // view space
-flat out float v_value;
+flat out float v_value, v_stain;
 out vec3 v_ray;         // through the square, view space
 
 void main() {
@@ -24,6 +25,7 @@ void main() {
   v_ray = centre + radius * grow * (corner.x * right + corner.y * cross(right, forward));
   v_sphere = vec4(centre, radius);
   v_value = value;
+  v_stain = stain;
 #if DEPTH_ONLY == 2
   gl_Position = shadow * vec4(v_ray, 1.0);
 #else

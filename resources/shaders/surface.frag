@@ -44,8 +44,7 @@ bool is_reached(vec3 place) {
   return false;
 }
 
-// What is wet with blood is dark red and shines; unevenly at its edge.
-const vec3 blood_colour = vec3(0.24, 0.006, 0.006);
+// What is wet with blood shines; unevenly at its edge.
 float soaked(float unevenness) {
   return smoothstep(0.04, 0.8, v_stain * (1.25 + unevenness));
 }

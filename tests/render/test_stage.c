@@ -436,6 +436,49 @@ static void test_stains_are_seen(void) {
   setting_close(&setting);
 }
 
+/* Pixels that change where the body alone is stained; bare: its visual unit is taken away before. */
+static int pixels_stained(const char *scene, const char *body, gboolean bare) {
+  Setting setting = setting_open(scene);
+  SporeObject *object = spore_document_find(setting.document, "body", body);
+  if (bare) g_assert_true(spore_document_remove(setting.document, spore_object_child_of(object, "visual"), NULL));
+  setting_run(&setting, 0);
+  SporeSnapshot snapshot = *spore_world_snapshot_acquire(setting.simulation->world);
+  SporeStainPlaces places =
+      spore_world_stain_places(setting.simulation->world, spore_simulation_body_of(setting.simulation, object));
+  g_autofree float *amount = g_new0(float, snapshot.stain_count);
+  SporeCamera camera;
+  Picture picture[2];
+  int changed = 0, lost = 0; /* green and blue */
+  g_assert_cmpuint(places.count, >, 0);
+  g_assert_true(spore_stage_camera(setting.stage, NULL, 4.0 / 3, &camera, NULL));
+  snapshot.stain = amount;
+  for (int i = 0; i < 2; i++) {
+    for (gsize k = 0; k < places.count; k++) amount[places.start + k] = (float)i;
+    snapshot.stained = (guint64)i + 1;
+    spore_stage_update(setting.stage, &snapshot);
+    picture[i] = draw_picture(setting.bench.renderer, &camera, 160, 120, FALSE, FALSE);
+  }
+  for (int p = 0; p < 160 * 120; p++) {
+    int clean[3], stained[3];
+    picture_pixel(&picture[0], p % 160, p / 160, clean);
+    picture_pixel(&picture[1], p % 160, p / 160, stained);
+    if (memcmp(clean, stained, sizeof clean) == 0) continue;
+    changed++;
+    lost += clean[1] + clean[2] - stained[1] - stained[2];
+  }
+  g_test_message("%s: %d pixels change, %d of green and blue lost", body, changed, lost);
+  g_assert_cmpint(lost, >, 20 * changed);
+  for (int i = 0; i < 2; i++) picture_clear(&picture[i]);
+  setting_close(&setting);
+  return changed;
+}
+
+/* What is drawn as a tube, or by its spheres, is stained as a surface is. */
+static void test_tubes_and_spheres_are_stained(void) {
+  g_assert_cmpint(pixels_stained(SPORE_SCENES "/laparoscopy.spore", "thread", FALSE), >, 60);
+  g_assert_cmpint(pixels_stained(SPORE_SCENES "/exercise-suction.spore", "bowl", TRUE), >, 1000);
+}
+
 /* The ball filled with a fluid whose collision unit names no spheres. */
 static void test_own_spheres(void) {
   Setting setting = setting_open(MINIMAL);
@@ -707,6 +750,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/stains-are-seen", test_stains_are_seen);
+  g_test_add_func("/render/stage/tubes-and-spheres-are-stained", test_tubes_and_spheres_are_stained);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);

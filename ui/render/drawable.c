@@ -44,7 +44,7 @@ static void free_surface(SporeSurfaceGroup *surface) {
 }
 
 static void free_spheres(SporeSphereGroup *group) {
-  GLuint buffers[] = {group->moving, group->values};
+  GLuint buffers[] = {group->moving, group->values, group->stain};
   glDeleteBuffers(G_N_ELEMENTS(buffers), buffers);
   glDeleteVertexArrays(1, &group->vertex_array);
 }

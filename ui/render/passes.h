@@ -118,7 +118,7 @@ typedef struct SporeSurfaceGroup {
 
 typedef struct SporeSphereGroup {
   SporeDrawable base;
-  GLuint vertex_array, moving, values;
+  GLuint vertex_array, moving, values, stain; /* values, stain: 0: has none */
   gsize count;
   float colour[3];
   gboolean overlay;
@@ -163,6 +163,7 @@ gboolean spore_surface_is_clear(const SporeSurfaceGroup *surface);
 gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);
+void spore_sphere_group_stain(SporeSphereGroup *group, const float *stain);
 void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count);
 SporePuffGroup *spore_puff_group_new(const float colour[3]);
 void spore_puff_group_move(SporePuffGroup *group, const SporePuff *puffs, gsize count);

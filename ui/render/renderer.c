@@ -172,6 +172,11 @@ guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres,
   return add(renderer, &spore_sphere_group_new(spheres, count, colour, values, overlay)->base);
 }
 
+void spore_renderer_stain_spheres(SporeRenderer *renderer, guint group, const float *stain) {
+  SporeSphereGroup *drawable = find_kind(renderer, group, SPORE_DRAW_SPHERES);
+  if (drawable) spore_sphere_group_stain(drawable, stain);
+}
+
 void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count) {
   SporeSphereGroup *drawable = find_kind(renderer, group, SPORE_DRAW_SPHERES);
   if (drawable) spore_sphere_group_move(drawable, spheres, count);

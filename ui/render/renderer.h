@@ -61,6 +61,8 @@ void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const 
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
 guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],
                                  const float *values, gboolean overlay);
+/* stain: one a sphere, 0..1, as of surfaces; none at first. */
+void spore_renderer_stain_spheres(SporeRenderer *renderer, guint group, const float *stain);
 /* count: as many as were added; for spheres without values, also fewer. */
 void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count);
 /* Puffs of smoke, each soft and translucent; none at first. */

@@ -6,6 +6,8 @@
 /* Share of its colour that an overlay keeps where something stands before it. */
 #define HIDDEN_ALPHA 0.30f
 
+enum { VALUE = 1, STAIN = 2 }; /* attributes of the shader: a number at each sphere */
+
 static void describe(const SporeSphereGroup *group) {
   glBindVertexArray(group->vertex_array);
   glBindBuffer(GL_ARRAY_BUFFER, group->moving);
@@ -41,6 +43,19 @@ SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, con
   return group;
 }
 
+void spore_sphere_group_stain(SporeSphereGroup *group, const float *stain) {
+  gboolean first = group->stain == 0;
+  if (first) glGenBuffers(1, &group->stain);
+  glBindBuffer(GL_ARRAY_BUFFER, group->stain);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(group->count * sizeof *stain), stain, GL_DYNAMIC_DRAW);
+  if (!first) return;
+  glBindVertexArray(group->vertex_array);
+  glEnableVertexAttribArray(STAIN);
+  glVertexAttribPointer(STAIN, 1, GL_FLOAT, GL_FALSE, 0, NULL);
+  glVertexAttribDivisor(STAIN, 1);
+  glBindVertexArray(0);
+}
+
 void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count) {
   group->count = count;
   spore_drawable_set_bounds(&group->base, spheres, group->count, 4, TRUE, FALSE);
@@ -63,7 +78,8 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
     spore_drawable_set_offset(drawable, frame, program->offset);
     glUniform3fv(program->colour, 1, group->colour);
     glBindVertexArray(group->vertex_array);
-    if (!group->values) glVertexAttrib1f(1, -1);
+    if (!group->values) glVertexAttrib1f(VALUE, -1);
+    if (!group->stain) glVertexAttrib1f(STAIN, 0);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)group->count);
   }
 }

@@ -103,6 +103,20 @@ static void place_tube(SporeStage *stage, SporeStageBody *body) {
   spore_free(tube.vertices);
 }
 
+/* The tube is stained where its vertices lay at rest. Its rings are made anew and do not turn with the body, so that a
+ * stain stays where it is along the tube, and about where it is around the tube. */
+static void keep_tube_stain(SporeStage *stage, SporeStageBody *body, const SporeCurve *rest,
+                            const SporeSimulation *simulation) {
+  SporeTriangleMesh tube;
+  if (!body->surface_handle || body->world_body == SPORE_NO_BODY) return;
+  if (!spore_curve_tube(rest, TUBE_SECTORS, &tube, NULL)) return;
+  if (tube.vertex_count == body->surface.count) {
+    body->rest_tube = g_memdup2(tube.vertices, 3 * tube.vertex_count * sizeof *tube.vertices);
+    spore_stage_body_keep_stain(stage, body, simulation->world, body->rest_tube);
+  }
+  spore_triangle_mesh_clear(&tube);
+}
+
 static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                        const SporeSimulation *simulation) {
   SporeObject *asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "curve");
@@ -114,6 +128,7 @@ static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObjec
     body->rest_axis = curve->points;
     body->tube = (SporeCurve){curve->count, g_memdup2(curve->points, 4 * curve->count * sizeof(double))};
     place_tube(stage, body);
+    keep_tube_stain(stage, body, curve, simulation);
   }
   g_free(points);
 }
@@ -198,6 +213,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
                                                     body->solid ? body->style.colour : sphere_colour,
                                                     fit ? fit->places : NULL, !body->solid);
+  if (body->solid && body->world_body != SPORE_NO_BODY) spore_stage_body_keep_spheres_stain(body, simulation->world);
 }
 
 static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
@@ -283,6 +299,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   clear_points(&body->nodes);
   clear_points(&body->axis);
   g_free(body->tube.points);
+  g_free(body->rest_tube);
   spore_free(body->own_triangles);
   spore_free(body->places);
   spore_free(body->edges);

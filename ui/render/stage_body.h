@@ -50,6 +50,7 @@ typedef struct SporeStageBody {
   gsize rest_count;                       /* of rest_surface */
 
   SporeStagePoints axis; /* of the tube that is the surface */
+  double *rest_tube;     /* vertices of the tube at rest: surface.count x 3; NULL: there is none */
   SporeCurve tube;       /* the axis as it is shown, with its radii; without points: there is none */
 
   SporeStagePoints centres;
@@ -146,7 +147,9 @@ void spore_stage_drop_textures(SporeStage *stage);
 /* Gets the surface ready for stains. vertices: of the surface at rest, borrowed. */
 void spore_stage_body_keep_stain(SporeStage *stage, SporeStageBody *body, const SporeWorld *world,
                                  const double *vertices);
-/* Shows the stains of the snapshot on the surface. */
+/* The same of spheres that are drawn as the body itself. */
+void spore_stage_body_keep_spheres_stain(SporeStageBody *body, const SporeWorld *world);
+/* Shows the stains of the snapshot on the surface, or the spheres. */
 void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const SporeSnapshot *snapshot);
 /* The surface is another one: it is stained anew. twins: the vertex of the surface at the start that each of its
  * vertices was made from; NULL: the vertices stay. Copied. */

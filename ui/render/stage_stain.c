@@ -23,6 +23,7 @@ struct SporeStageStain {
   guint64 shown;                                /* SporeSnapshot.stained */
   gboolean anew;                                /* the surface does not show `amount` yet */
   gboolean closed;                              /* the surface at the start */
+  const guint32 *first; /* of each sphere the first of its places, of the world; NULL: a surface is stained */
 };
 
 /* Places by cells of a grid around them. */
@@ -160,12 +161,28 @@ static float stain_of(const SporeStageStain *stain, gsize vertex) {
   return sum;
 }
 
+/* Each sphere has the mean of its places. */
+static void stain_spheres(SporeStage *stage, const SporeStageBody *body, const float *amount) {
+  const guint32 *first = body->stain->first;
+  g_autofree float *values = g_new0(float, body->centres.count);
+  for (gsize s = 0; s < body->centres.count; s++) {
+    for (guint32 i = first[s]; i < first[s + 1]; i++) values[s] += amount[i];
+    values[s] /= (float)MAX(first[s + 1] - first[s], 1);
+  }
+  spore_renderer_stain_spheres(stage->renderer, body->spheres_handle, values);
+}
+
 void spore_stage_body_stain(SporeStage *stage, SporeStageBody *body, const SporeSnapshot *snapshot) {
   SporeStageStain *stain = body->stain;
-  if (!stain || !body->surface_handle || stain->shown == snapshot->stained) return;
+  if (!stain || !(stain->first ? body->spheres_handle : body->surface_handle) || stain->shown == snapshot->stained)
+    return;
   const float *amount = snapshot->stain + stain->place_start;
   gsize size = stain->place_count * sizeof *amount;
   stain->shown = snapshot->stained;
+  if (stain->first) {
+    stain_spheres(stage, body, amount);
+    return;
+  }
   if (!stain->near && is_clean(amount, stain->place_count)) return;
   if (!stain->near) find_shares(stain, body);
   if (!stain->anew && memcmp(stain->amount, amount, size) == 0) return;
@@ -189,6 +206,16 @@ void spore_stage_body_keep_stain(SporeStage *stage, SporeStageBody *body, const 
   stain->out = places.out;
   stain->closed = spore_renderer_fills_surface(stage->renderer, body->surface_handle);
   stain->anew = TRUE;
+}
+
+void spore_stage_body_keep_spheres_stain(SporeStageBody *body, const SporeWorld *world) {
+  SporeStainPlaces places = spore_world_stain_places(world, body->world_body);
+  if (places.count == 0 || body->stain || spore_world_body_sphere_count(world, body->world_body) != body->centres.count)
+    return;
+  SporeStageStain *stain = body->stain = g_new0(SporeStageStain, 1);
+  stain->place_count = places.count;
+  stain->place_start = places.start;
+  stain->first = places.first;
 }
 
 void spore_stage_body_stain_anew(SporeStageBody *body, const guint32 *twins) {

@@ -282,7 +282,7 @@ SporeStainPlaces spore_world_stain_places(const SporeWorld *world, uint32_t body
   assert(body < world->body_count);
   if (!world->stains.units) return (SporeStainPlaces){0};
   const SporeStainUnit *unit = &world->stains.units[body];
-  return (SporeStainPlaces){unit->start, unit->count, unit->rest, unit->out};
+  return (SporeStainPlaces){unit->start, unit->count, unit->rest, unit->out, unit->first};
 }
 
 double spore_world_stained(const SporeWorld *world, uint32_t body) {
