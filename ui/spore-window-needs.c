@@ -91,6 +91,7 @@ static const struct {
   const char *action;
   Need needs;
 } needs[] = {
+    {"fix", IDLE},
     {"undo", UNDO},
     {"redo", REDO},
     {"save", UNSAVED},

@@ -220,6 +220,9 @@ void spore_window_add_template_actions(SporeWindow *self);
 /* An entry for each. */
 void spore_window_fill_template_menu(SporeWindow *self);
 
+/* spore-window-fix.c: what mends a problem. */
+void spore_window_add_fix_actions(SporeWindow *self);
+
 /* spore-window-film.c: pictures of the view, and films of runs. */
 void spore_window_add_film_actions(SporeWindow *self);
 

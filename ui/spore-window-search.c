@@ -18,6 +18,7 @@ static const struct {
     {"app.look::light", N_("Light windows")},
     {"app.look::dark", N_("Dark windows")},
     {"app.reset-preferences", N_("Preferences: reset all")},
+    {"win.fix", N_("Fix the selected problem")},
     {"win.undo", N_("Undo")},
     {"win.redo", N_("Redo")},
     {"win.play-pause", N_("Play or pause")},

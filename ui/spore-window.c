@@ -281,6 +281,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_fluid_actions(self);
   spore_window_add_placement_actions(self);
   spore_window_add_pose_actions(self);
+  spore_window_add_fix_actions(self);
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   spore_window_follow_recent(self);

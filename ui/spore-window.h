@@ -11,7 +11,7 @@
  *               save-film [s path], save-film-dialog, save-numbers [s path], save-numbers-dialog, save-plot [s path],
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close, locate [s missing file, as the scene names it, s path], locate-dialog
- *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
+ *   edit        fix (the selected problem), undo, redo, select [s path], rename [s name], rename-dialog, delete,
  *               delete-alone (assets and steps of the exercise stay), keep-along (what the last delete took besides),
  *               move-row [i -1 or 1] (of what is selected, in its list), set-property [s path, s name, s value],
  *               unset-property [s path, s name], set-model [s element], use-preset [s name],

@@ -6,6 +6,7 @@
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
 #include "core/author/edits.h"
+#include "core/author/fix.h"
 #include "core/author/fluid_edits.h"
 #include "core/author/instrument_edits.h"
 #include "core/author/level_edits.h"
@@ -27,7 +28,7 @@ typedef struct Request {
       **instrument, **port, **texture, *patient, *output;
   SporeCliPlacing placing;
   char *keep_pose; /* seconds; NULL: none is kept */
-  gboolean probe, forget_pose;
+  gboolean probe, fix, forget_pose;
 } Request;
 
 /* What was done, for the report. */
@@ -322,6 +323,27 @@ static SporeObject *move_port(SporeDocument *document, const char *text, GError 
   return port && spore_edit_move_port(document, port, place, error) ? port : NULL;
 }
 
+static gboolean fix(SporeCli *cli, SporeDocument *document, const SporeDiagnostic *diagnostic, GPtrArray *changed,
+                    GError **error) {
+  SporeFixWork *work = spore_fix_work_new(document, diagnostic, error);
+  gboolean done =
+      work && spore_fix_work_run(work, spore_cli_progress(cli), error) && spore_fix_work_apply(work, document, error);
+  if (done) g_ptr_array_add(changed, g_strdup(spore_fix_work_path(work)));
+  g_clear_pointer(&work, spore_fix_work_free);
+  return done;
+}
+
+/* Does all fixes that the check offers and that ask nothing. */
+static gboolean fix_all(SporeCli *cli, SporeDocument *document, GPtrArray *changed, GError **error) {
+  g_autoptr(GPtrArray) diagnostics = spore_document_check(document, spore_cli_cancel());
+  for (guint i = 0; i < diagnostics->len; i++) {
+    const SporeDiagnostic *diagnostic = diagnostics->pdata[i];
+    if (diagnostic->fix == SPORE_FIX_NONE || diagnostic->fix == SPORE_FIX_LOCATE) continue;
+    if (!fix(cli, document, diagnostic, changed, error)) return FALSE;
+  }
+  return TRUE;
+}
+
 /* Runs the scene for that time, and lets it begin so. */
 static gboolean keep_pose(SporeCli *cli, SporeDocument *document, const char *text, GPtrArray *changed,
                           GError **error) {
@@ -381,6 +403,7 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   SporeObject *probe = request->probe ? add_instrument(document, "probe:probe", error) : NULL;
   if (probe) note(changed, probe);
   if (request->probe && !probe) return FALSE;
+  if (request->fix && !fix_all(cli, document, changed, error)) return FALSE;
   if (request->forget_pose && !spore_edit_forget_pose(document, error)) return FALSE;
   return !request->keep_pose || keep_pose(cli, document, request->keep_pose, changed, error);
 }
@@ -515,6 +538,10 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        "BODY,BODY=AXIS:SIDE"},
       {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
        NULL},
+      {"fix", 0, 0, G_OPTION_ARG_NONE, &request.fix,
+       N_("Do, after all else, what has one plain remedy of what spore check finds: hold what falls, remove unused "
+          "assets and settings, generate stale data and missing spheres, take enough substeps"),
+       NULL},
       {"forget-pose", 0, 0, G_OPTION_ARG_NONE, &request.forget_pose,
        N_("Let all bodies begin as their geometry says, not in a pose that was kept"), NULL},
       {"keep-pose", 0, 0, G_OPTION_ARG_STRING, &request.keep_pose,
@@ -530,14 +557,14 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
                  request.level || request.set || request.patient || request.hold || request.instrument ||
                  request.fluid || request.mirror || request.copy || request.port || request.texture ||
                  request.placing.move || request.placing.turn || request.placing.scale || request.placing.align ||
-                 request.probe || request.forget_pose || request.keep_pose;
+                 request.probe || request.fix || request.forget_pose || request.keep_pose;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --delete, --delete-alone, --locate, --add, --soft, --level, "
           "--set, --patient, "
           "--hold, "
           "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align, --probe, "
-          "--forget-pose or --keep-pose; give one of them"));
+          "--fix, --forget-pose or --keep-pose; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   g_strfreev(request.delete);

@@ -89,10 +89,17 @@ static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role)
   if (role != SPORE_PASSIVE)
     spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, or the role passive"),
                     _("\"%s\" is to be an effect, and physics does not move it anyway"), name);
+  if (role != SPORE_PASSIVE) spore_check_offer_set(check, fidelity, "mode", "physical");
   else if (holder)
     spore_check_say(check, SPORE_WARNING, fidelity, _("make the mode physical, or take the link away"),
                     _("\"%s\" is an effect, so that it does not give way to the link \"%s\""), name,
                     spore_object_name(holder));
+}
+
+/* Whether spheres can be made of what the body shows. */
+static gboolean shows_mesh(const SporeObject *body) {
+  const SporeObject *visual = spore_object_child_of(body, "visual");
+  return visual && spore_object_reference(visual, "mesh");
 }
 
 static void check_body(SporeCheck *check, SporeObject *body) {
@@ -106,6 +113,8 @@ static void check_body(SporeCheck *check, SporeObject *body) {
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: bodies pass through it"), name);
+  if (!felt && !backdrop && !is_used_untouched(check, body) && role == SPORE_PASSIVE && shows_mesh(body))
+    spore_check_offer(check, SPORE_FIX_GENERATE);
   if (role == SPORE_ACTIVE && !is_moved(check, body))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);

@@ -9,13 +9,18 @@ typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSever
 /* What can be done about a diagnostic without asking. */
 typedef enum SporeFix {
   SPORE_FIX_NONE,
-  SPORE_FIX_HOLD,  /* pin the body: spore_edit_add_pin */
-  SPORE_FIX_LOCATE /* ask where the missing file is: spore_locate_work_new */
+  SPORE_FIX_HOLD,     /* pin the body: spore_edit_add_pin */
+  SPORE_FIX_LOCATE,   /* ask where the missing file is: spore_locate_work_new */
+  SPORE_FIX_SET,      /* set properties to a value, or back to their defaults */
+  SPORE_FIX_REMOVE,   /* remove the object */
+  SPORE_FIX_GENERATE, /* generate the asset again, or spheres of the body */
 } SporeFix;
 typedef struct SporeDiagnostic {
   SporeSeverity severity;
   SporeFix fix;
   guint32 object;                 /* object's id; 0: the whole scene */
+  guint32 fixed;                  /* id of the object that the fix changes */
+  char *properties, *value;       /* of SPORE_FIX_SET: names joined by |, and the text; NULL: back to the default */
   char *place, *message, *remedy; /* place: FILE:LINE:COLUMN or object path; texts translated */
 } SporeDiagnostic;
 void spore_diagnostic_free(SporeDiagnostic *diagnostic);

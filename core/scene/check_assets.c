@@ -103,6 +103,11 @@ static gboolean check_label_map(SporeCheck *check, SporeObject *asset, GError **
   return content != NULL;
 }
 
+/* Whether a body has the asset, whose mesh it would be made from again. */
+static gboolean is_made_of_a_body(const SporeCheck *check, const SporeObject *asset) {
+  return spore_check_is_used(check, asset, "mechanical|collision|visual") && !spore_generated_is(asset, "edited");
+}
+
 static void check_fresh(SporeCheck *check, SporeObject *asset) {
   SporeGenerated generated = spore_generated_state(check->document, asset);
   SporeObject *source = spore_object_reference(asset, "source");
@@ -116,6 +121,7 @@ static void check_fresh(SporeCheck *check, SporeObject *asset) {
   else
     spore_check_say(check, severity, asset, remedy, _("\"%s\" is stale: its options have changed since it was made"),
                     spore_object_name(asset));
+  if (!frozen && is_made_of_a_body(check, asset)) spore_check_offer(check, SPORE_FIX_GENERATE);
 }
 
 static void check_asset(SporeCheck *check, SporeObject *asset) {
@@ -128,9 +134,11 @@ static void check_asset(SporeCheck *check, SporeObject *asset) {
   else if (strcmp(element, "label_map") == 0) done = check_label_map(check, asset, &error);
   else done = check_spheres(check, asset, &error);
   if (!done) spore_check_say_error(check, used ? SPORE_FAULT : SPORE_WARNING, asset, error);
-  if (!used)
+  if (!used) {
     spore_check_say(check, SPORE_NOTE, asset, _("remove it, or name it in a body"), _("nothing uses the %s \"%s\""),
                     element, spore_object_name(asset));
+    spore_check_offer(check, SPORE_FIX_REMOVE);
+  }
   if (strcmp(element, "mesh") != 0 && strcmp(element, "label_map") != 0) check_fresh(check, asset);
 }
 

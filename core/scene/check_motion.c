@@ -9,6 +9,7 @@
 #include "core/scene/fidelity.h"
 #include "core/scene/schema_fields.h"
 #include "core/scene/work_estimate.h"
+#include "core/sim/solve/method_trial.h"
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: touching bodies overlap by less */
 #define WARNED_OVERLAP 0.5
@@ -256,6 +257,8 @@ static void check_margin(const Start *start, guint body) {
       _("the margin of \"%s\" is %.3g m, more than the radius of its smallest sphere, %.3g m: of a sphere no more "
         "than its radius counts, pairs that far apart cost as much as contacts, and neighbours that near never meet"),
       spore_object_name(start->bodies->pdata[body]), margin, least);
+  char value[G_ASCII_DTOSTR_BUF_SIZE];
+  spore_check_offer_set(start->check, collision, "margin", g_ascii_formatd(value, sizeof value, "%.2g", least / 4));
 }
 
 /* Reports what each model says that it computes badly. */
@@ -296,13 +299,64 @@ static void check_work(SporeCheck *check, const SporeSimulation *simulation) {
   }
 }
 
+/* The passive body that a fault of compiling is about; NULL: it is about something else. */
+static SporeObject *body_of_fault(SporeDocument *document, const GError *fault) {
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    g_autofree char *where = spore_object_where(body), *place = g_strdup_printf("%s: ", where);
+    if (g_str_has_prefix(fault->message, place) && spore_object_child_of(body, "mechanical")) return body;
+  }
+  return NULL;
+}
+
+/* The body's method by its name. */
+static SporeIntegratorKind integrator_of(const SporeWorld *world, guint32 body) {
+  SporeMethod method;
+  int kind = 0;
+  if (!spore_world_body_method(world, body, &method)) return SPORE_INTEGRATOR_DEFAULT;
+  while (kind < SPORE_INTEGRATOR_COUNT && !g_str_equal(spore_integrator_names[kind], method.integrator.name)) kind++;
+  return (SporeIntegratorKind)kind;
+}
+
+/* Substeps of which each is as short as the body's method bears; 0: another number does not help. Asks a copy of the
+ * scene in which the body has the most substeps there may be. */
+static guint64 substeps_needed(SporeCheck *check, guint32 id) {
+  SporeDocument *copy = spore_document_copy(check->document);
+  SporeObject *body = spore_document_by_id(copy, id), *mechanical = spore_object_child_of(body, "mechanical");
+  g_autofree char *most = g_strdup_printf("%d", SPORE_SUBSTEPS_MAXIMUM);
+  double step_s = spore_object_number(spore_document_section(copy, "solver"), "time_step"), needed = 0;
+  SporeSimulation *simulation = spore_document_set_text(copy, mechanical, "substeps", most, NULL)
+                                    ? spore_simulation_new(copy, NULL, NULL, check->cancel, NULL)
+                                    : NULL;
+  guint32 index = simulation ? spore_simulation_body_of(simulation, body) : SPORE_NO_BODY;
+  SporeStepLimit limit;
+  if (index != SPORE_NO_BODY &&
+      spore_world_predict_step(simulation->world, index, integrator_of(simulation->world, index), &limit, NULL) &&
+      limit.dt_s > 0)
+    needed = ceil(step_s / limit.dt_s);
+  spore_simulation_free(simulation);
+  spore_document_free(copy);
+  return needed > 1 && needed <= SPORE_SUBSTEPS_MAXIMUM ? (guint64)needed : 0;
+}
+
+/* Where the step is too long for a body, more substeps are what can be done without asking. */
+static void offer_substeps(SporeCheck *check, const GError *fault) {
+  SporeObject *body = body_of_fault(check->document, fault);
+  guint64 needed = body ? substeps_needed(check, spore_object_id(body)) : 0;
+  g_autofree char *text = g_strdup_printf("%" G_GUINT64_FORMAT, needed);
+  if (needed > 0) spore_check_offer_set(check, spore_object_child_of(body, "mechanical"), "substeps", text);
+}
+
 /* Checks what shows only when the scene is compiled: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
   g_autoptr(GError) error = NULL;
   SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, check->cancel, &error);
-  if (!simulation && !spore_cancel_asked(check->cancel)) spore_check_say_error(check, SPORE_FAULT, NULL, error);
-  return simulation;
+  if (simulation || spore_cancel_asked(check->cancel)) return simulation;
+  spore_check_say_error(check, SPORE_FAULT, NULL, error);
+  if (g_error_matches(error, SPORE_ERROR, SPORE_ERROR_INPUT)) offer_substeps(check, error);
+  return NULL;
 }
 
 void spore_check_motion(SporeCheck *check) {

@@ -11,6 +11,7 @@ static void check_pose(SporeCheck *check, const SporeSimulation *simulation, Spo
   if ((SporeRole)spore_object_number(body, "role") == SPORE_UNMOVABLE) {
     spore_check_say(check, SPORE_NOTE, body, _("take kept_pose out, or make it movable"),
                     _("\"%s\" has a kept pose, and does not move"), name);
+    spore_check_offer_set(check, body, "kept_pose", NULL);
     return;
   }
   const SporeModel *model =
@@ -22,9 +23,11 @@ static void check_pose(SporeCheck *check, const SporeSimulation *simulation, Spo
   if (!spore_kept_pose_read(check->document, body, model, spore_world_start_pose(simulation->world, index), &state, &q,
                             &count, &error))
     spore_check_say_error(check, SPORE_FAULT, body, error);
-  else if (state == SPORE_POSE_STALE)
+  else if (state == SPORE_POSE_STALE) {
     spore_check_say(check, SPORE_WARNING, body, _("play and keep the pose again, or take kept_pose out"),
                     _("the kept pose of \"%s\" is of another shape or model: it begins as its geometry says"), name);
+    spore_check_offer_set(check, body, "kept_pose", NULL);
+  }
   g_free(q);
 }
 

@@ -23,6 +23,9 @@ void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObjec
                      const char *message_format, ...) G_GNUC_PRINTF(5, 6);
 /* Says that the last diagnostic can be fixed so. */
 void spore_check_offer(SporeCheck *check, SporeFix fix);
+/* Says that the last diagnostic is fixed by setting properties (names joined by |) of the object to the text. NULL:
+ * back to their defaults. */
+void spore_check_offer_set(SporeCheck *check, const SporeObject *object, const char *properties, const char *value);
 /* Adds the message of another room, "PLACE: what is wrong; what was expected; what to do", as a diagnostic about the
  * object. */
 void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error);

@@ -10,6 +10,8 @@ void spore_diagnostic_free(SporeDiagnostic *diagnostic) {
   g_free(diagnostic->place);
   g_free(diagnostic->message);
   g_free(diagnostic->remedy);
+  g_free(diagnostic->properties);
+  g_free(diagnostic->value);
   g_free(diagnostic);
 }
 
@@ -35,7 +37,17 @@ void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObjec
 
 void spore_check_offer(SporeCheck *check, SporeFix fix) {
   g_assert(check->found->len > 0);
-  ((SporeDiagnostic *)check->found->pdata[check->found->len - 1])->fix = fix;
+  SporeDiagnostic *last = check->found->pdata[check->found->len - 1];
+  last->fix = fix;
+  last->fixed = last->object;
+}
+
+void spore_check_offer_set(SporeCheck *check, const SporeObject *object, const char *properties, const char *value) {
+  SporeDiagnostic *last = check->found->pdata[check->found->len - 1];
+  last->fix = SPORE_FIX_SET;
+  last->fixed = spore_object_id(object);
+  last->properties = g_strdup(properties);
+  last->value = g_strdup(value);
 }
 
 /* The object that a message is about, found by the place at the message's start ("FILE:LINE:COLUMN: " or "PATH: "), or

@@ -57,14 +57,18 @@ static void check_solver(SporeCheck *check, const SporeObject *solver) {
   spore_object_fields(solver, &fields);
   Uses uses = find_uses(check);
   if (uses.moved == 0) return;
-  if (fields.error_tolerance > 0 && !uses.adaptive)
+  if (fields.error_tolerance > 0 && !uses.adaptive) {
     spore_check_say(check, SPORE_WARNING, solver, _("choose tr_bdf2 as integrator, or remove error_tolerance"), "%s",
                     _("error_tolerance is not used: no body is integrated by tr_bdf2"));
-  if ((fields.nonlinear != SPORE_NONLINEAR_AUTOMATIC || fields.linear != SPORE_LINEAR_AUTOMATIC) && !uses.implicit)
+    spore_check_offer_set(check, solver, "error_tolerance", NULL);
+  }
+  if ((fields.nonlinear != SPORE_NONLINEAR_AUTOMATIC || fields.linear != SPORE_LINEAR_AUTOMATIC) && !uses.implicit) {
     spore_check_say(check, SPORE_NOTE, solver, _("choose an implicit integrator, or leave nonlinear and linear open"),
                     "%s",
                     _("every body is integrated explicitly: how equations are solved matters only in steps that "
                       "contacts, links or recovery make implicit"));
+    spore_check_offer_set(check, solver, "nonlinear|linear", NULL);
+  }
 }
 
 /* Speed (m/s) at which a body without contact sinks under the static integrator: no force balances its weight, so each
@@ -80,11 +84,13 @@ static double static_sinking_speed(const SporeCheck *check) {
 static void check_static(SporeCheck *check, const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
   if (integrator_of(check, body) != SPORE_INTEGRATOR_STATIC) return;
-  if (spore_object_number(mechanical, "substeps") > 1)
+  if (spore_object_number(mechanical, "substeps") > 1) {
     spore_check_say(
         check, SPORE_WARNING, mechanical, _("remove substeps, or choose another integrator"),
         _("substeps of \"%s\" gain nothing: static finds the balance of forces, in which time does not count"),
         spore_object_name(body));
+    spore_check_offer_set(check, mechanical, "substeps", NULL);
+  }
   if (!spore_check_is_used(check, body, SPORE_HOLDING))
     spore_check_say(check, SPORE_WARNING, mechanical,
                     _("pin it, tie it with a spring, or choose an integrator that moves it"),
@@ -101,15 +107,19 @@ static void check_particles(SporeCheck *check, const SporeObject *body) {
   const SporeObject *solver = spore_document_section(check->document, "solver");
   guint property = (guint)spore_parameter_find(spore_object_type(solver)->table, "integrator");
   SporeIntegratorKind own = own_integrator(body), scene = scene_integrator(check);
-  if (own != SPORE_INTEGRATOR_DEFAULT && own != SPORE_INTEGRATOR_STATIC && spore_integrator(own)->implicit)
+  if (own != SPORE_INTEGRATOR_DEFAULT && own != SPORE_INTEGRATOR_STATIC && spore_integrator(own)->implicit) {
     spore_check_say(check, SPORE_WARNING, mechanical, _("leave the integrator open, or take verlet"),
                     _("particles of \"%s\" have no Jacobian that %s could use: its steps may be no longer than "
                       "verlet's, each costs many of them, and its equations may be left unsolved"),
                     spore_object_name(body), spore_integrator_names[own]);
-  if (own == SPORE_INTEGRATOR_DEFAULT && spore_object_is_set(solver, property) && spore_integrator(scene)->implicit)
+    spore_check_offer_set(check, mechanical, "integrator", "verlet");
+  }
+  if (own == SPORE_INTEGRATOR_DEFAULT && spore_object_is_set(solver, property) && spore_integrator(scene)->implicit) {
     spore_check_say(check, SPORE_NOTE, mechanical, _("choose verlet for it, so that the scene says so"),
                     _("the scene's integrator %s is not used for \"%s\": particles are moved by verlet"),
                     spore_integrator_names[scene], spore_object_name(body));
+    spore_check_offer_set(check, mechanical, "integrator", "verlet");
+  }
 }
 
 /* Whether another body is in that collision group. */

@@ -11,9 +11,11 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   SporeTexture texture;
   if (spore_texture_read(check->document, visual, &texture, &error)) spore_texture_clear(&texture);
   if (error) spore_check_say_error(check, SPORE_WARNING, visual, error);
-  else if (!spore_object_text(visual, "texture") && spore_object_text(visual, "texture_places"))
+  else if (!spore_object_text(visual, "texture") && spore_object_text(visual, "texture_places")) {
     spore_check_say(check, SPORE_NOTE, visual, _("name a texture, or remove texture_places"),
                     _("\"%s\" has places in a texture, and no texture"), spore_object_name(body));
+    spore_check_offer_set(check, visual, "texture_places", NULL);
+  }
 }
 
 void spore_check_textures(SporeCheck *check) { spore_check_each(check, "bodies", NULL, check_body); }

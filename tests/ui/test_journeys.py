@@ -514,7 +514,7 @@ def preview_is_dropped():
 
 @check
 def stale_and_frozen():
-    """generated data say when they are stale, are made again, and stay as they are when frozen."""
+    """generated data say when they are stale, are made again, also by the fix of the problem, and stay as they are when frozen."""
     with start() as editor:
         make_soft_ball(editor, 12)
         editor.act("select", "s", "bodies/ball")
@@ -532,6 +532,16 @@ def stale_and_frozen():
         editor.act("apply-generated")
         ui.wait(lambda: not editor.look("label", "Stale", showing=False), "the spheres to be fresh")
         assert 'frozen' not in saved(editor, "fresh")
+        editor.act("set-property", "(sss)", ("assets/ball_spheres", "count", "14"))
+        editor.press(editor.find("radio button", "^Problems"))
+        click(editor, middle(editor, editor.find("table cell", "is stale: its options have changed")))
+        editor.find("push button", "^Generate it$")
+        keep_picture(editor, "fix-offered")
+        editor.press(editor.find("push button", "^Generate it$"))
+        ui.wait(lambda: not editor.look("table cell", "is stale"), "the fix")
+        assert 'count="14"' in saved(editor, "fixed")
+        editor.act("undo")
+        editor.find("table cell", "is stale: its options have changed")
 
 
 @check

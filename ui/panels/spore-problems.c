@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/author/fix.h"
 #include "ui/jobs/works.h"
 #include "ui/jobs/spore-job.h"
 
@@ -11,9 +12,9 @@
 #define CHECK_DELAY_MS 400
 
 struct _SporeProblems {
-  GtkScrolledWindow parent;
+  GtkBox parent;
   GtkListStore *store;
-  GtkWidget *tree;
+  GtkWidget *tree, *fix;
   SporeEditorDocument *document;
   guint timer;
   SporeJob *job;    /* checks; NULL: none does */
@@ -21,7 +22,7 @@ struct _SporeProblems {
   guint run_count;
 };
 
-G_DEFINE_FINAL_TYPE(SporeProblems, spore_problems, GTK_TYPE_SCROLLED_WINDOW)
+G_DEFINE_FINAL_TYPE(SporeProblems, spore_problems, GTK_TYPE_BOX)
 
 static guint checked;
 
@@ -37,6 +38,21 @@ static char *hint_of(const SporeDiagnostic *diagnostic) {
   return g_markup_printf_escaped("%s%s%s", diagnostic->message, *remedy ? "\n" : "", remedy);
 }
 
+const SporeDiagnostic *spore_problems_selected(SporeProblems *self) {
+  g_autoptr(GtkTreePath) path = NULL;
+  gtk_tree_view_get_cursor(GTK_TREE_VIEW(self->tree), &path, NULL);
+  guint row = path ? (guint)gtk_tree_path_get_indices(path)[0] : G_MAXUINT;
+  return row < self->found->len ? self->found->pdata[row] : NULL;
+}
+
+/* The button does what the selected problem offers. */
+static void cursor_changed(SporeProblems *self) {
+  const SporeDiagnostic *selected = spore_problems_selected(self);
+  g_autofree char *label = selected ? spore_fix_label(selected) : NULL;
+  gtk_widget_set_visible(self->fix, label != NULL);
+  if (label) gtk_button_set_label(GTK_BUTTON(self->fix), label);
+}
+
 static void show(SporeProblems *self) {
   gtk_list_store_clear(self->store);
   for (guint i = 0; i < self->found->len; i++) {
@@ -45,6 +61,7 @@ static void show(SporeProblems *self) {
     gtk_list_store_insert_with_values(self->store, NULL, -1, 0, diagnostic->object, 1, icon_of(diagnostic->severity), 2,
                                       diagnostic->message, 3, diagnostic->remedy, 4, diagnostic->place, 5, hint, -1);
   }
+  cursor_changed(self);
   g_signal_emit(self, checked, 0, self->found);
 }
 
@@ -107,6 +124,7 @@ static void row_activated(GtkTreeView *tree, GtkTreePath *path, GtkTreeViewColum
   guint id;
   if (!gtk_tree_model_get_iter(GTK_TREE_MODEL(self->store), &iter, path)) return;
   gtk_tree_model_get(GTK_TREE_MODEL(self->store), &iter, 0, &id, -1);
+  gtk_tree_view_set_cursor(tree, path, NULL, FALSE);
   spore_editor_document_select(self->document, id);
 }
 
@@ -146,7 +164,9 @@ static void spore_problems_class_init(SporeProblemsClass *class) {
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-problems.ui");
   gtk_widget_class_bind_template_child(widget, SporeProblems, store);
   gtk_widget_class_bind_template_child(widget, SporeProblems, tree);
+  gtk_widget_class_bind_template_child(widget, SporeProblems, fix);
   gtk_widget_class_bind_template_callback(widget, row_activated);
+  gtk_widget_class_bind_template_callback(widget, cursor_changed);
 }
 
 static void free_diagnostic(gpointer data) { spore_diagnostic_free(data); }
