@@ -2435,8 +2435,9 @@ def a_drag_beside_turns_the_view():
     path.write_text(f'<spore version="1.0"><assets><mesh name="ball" file="ball.off"/></assets><bodies>{balls}</bodies></spore>\n')
     with start(path, XDG_CONFIG_HOME=str(folder("turning"))) as editor:
         ui.wait(lambda: editor.row("left"), "the scene")
+        editor.drawn_view()  # framed
         editor.act("view", "s", "front")
-        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        x, y, width, height = editor.place(editor.drawn_view())
 
         def click(at):
             editor.mouse("mousemove", *at, "click", 1)
@@ -2445,8 +2446,11 @@ def a_drag_beside_turns_the_view():
             click(beside)
             ui.wait(lambda: not editor.enabled("delete"), "nothing to be selected")
             click(at)
-            editor.mouse("sleep", 0.2)
-            return editor.enabled("delete")
+            for _ in range(6):  # a busy window answers late
+                editor.mouse("sleep", 0.1)
+                if editor.enabled("delete"):
+                    return True
+            return False
 
         middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height - 60)
         rights = [(middle[0] + dx, middle[1]) for dx in range(20, width // 2 - 10, 12)]
@@ -2460,7 +2464,7 @@ def a_drag_beside_turns_the_view():
         assert selects(at)
         tree = editor.place(editor.find("tree table", "^Outliner$"))
         row = editor.place(editor.row("right"))
-        eye = tree[0] + tree[2] - 14, row[1] + row[3] // 2
+        eye = tree[0] + tree[2] - 38, row[1] + row[3] // 2  # before the lock
         click(eye)
         editor.find("label", "^1 body is hidden, A shows all")
         keep_picture(editor, "eye")
