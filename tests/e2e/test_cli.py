@@ -1292,6 +1292,7 @@ def render_colours_what_is_strained():
     refuses("render", net, "-o", picture, "--field", "heat", says=["'heat'", "strain, stress, velocity or level"])
     said = colours("level", "--spheres", "--contacts")[0]
     assert "Level of detail: nothing here has several levels\n" in said, said
+    assert re.search(r"Contact force on a sphere: 0 to 0.01 N \(scale follows the state\)\n", said), said
     assert re.search(r"Contact forces: 1 N is a line of .*; (nothing touches now|largest now: .* N)\n", said), said
     said = spore("render", SCENES / "levels.spore", "-o", picture, "--size", "64x64", "--field", "level", "--spheres").stdout
     assert "Level of detail: coarse to fine\n" in said and re.search(r"Depth error: 0 to \S+ ", said), said

@@ -119,7 +119,7 @@ typedef struct SporeSurfaceGroup {
 typedef struct SporeSphereGroup {
   SporeDrawable base;
   GLuint vertex_array, moving, values, stain; /* values, stain: 0: has none */
-  gsize count;
+  gsize count, added;                         /* that are drawn; that there is a value of each */
   float colour[3];
   gboolean overlay;
 } SporeSphereGroup;
@@ -164,6 +164,8 @@ gboolean spore_surface_is_filled(const SporeSurfaceGroup *surface);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);
 void spore_sphere_group_stain(SporeSphereGroup *group, const float *stain);
+/* values: one for each sphere that was added; NULL: none has one any more. */
+void spore_sphere_group_value(SporeSphereGroup *group, const float *values);
 void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count);
 SporePuffGroup *spore_puff_group_new(const float colour[3]);
 void spore_puff_group_move(SporePuffGroup *group, const SporePuff *puffs, gsize count);

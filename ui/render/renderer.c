@@ -182,6 +182,11 @@ void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const dou
   if (drawable) spore_sphere_group_move(drawable, spheres, count);
 }
 
+void spore_renderer_value_spheres(SporeRenderer *renderer, guint group, const float *values) {
+  SporeSphereGroup *drawable = find_kind(renderer, group, SPORE_DRAW_SPHERES);
+  if (drawable) spore_sphere_group_value(drawable, values);
+}
+
 guint spore_renderer_add_puffs(SporeRenderer *renderer, const float colour[3]) {
   spore_offscreen_make_current(renderer->offscreen);
   return add(renderer, &spore_puff_group_new(colour)->base);

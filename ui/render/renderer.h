@@ -65,6 +65,9 @@ guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres,
 void spore_renderer_stain_spheres(SporeRenderer *renderer, guint group, const float *stain);
 /* count: as many as were added; for spheres without values, also fewer. */
 void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count);
+/* Colours spheres by the scale. values: one a sphere, as many as were added, 0..1; NULL: they have the group's colour.
+ */
+void spore_renderer_value_spheres(SporeRenderer *renderer, guint group, const float *values);
 /* Puffs of smoke, each soft and translucent; none at first. */
 typedef struct SporePuff {
   double centre[3], radius; /* m, world */

@@ -14,11 +14,22 @@ static void describe(const SporeSphereGroup *group) {
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, NULL);
   glVertexAttribDivisor(0, 1);
-  if (group->values) {
+  glBindVertexArray(0);
+}
+
+void spore_sphere_group_value(SporeSphereGroup *group, const float *values) {
+  glBindVertexArray(group->vertex_array);
+  if (values) {
+    if (!group->values) glGenBuffers(1, &group->values);
     glBindBuffer(GL_ARRAY_BUFFER, group->values);
-    glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, 0, NULL);
-    glVertexAttribDivisor(1, 1);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(group->added * sizeof *values), values, GL_DYNAMIC_DRAW);
+    glEnableVertexAttribArray(VALUE);
+    glVertexAttribPointer(VALUE, 1, GL_FLOAT, GL_FALSE, 0, NULL);
+    glVertexAttribDivisor(VALUE, 1);
+  } else if (group->values) {
+    glDisableVertexAttribArray(VALUE);
+    glDeleteBuffers(1, &group->values);
+    group->values = 0;
   }
   glBindVertexArray(0);
 }
@@ -32,14 +43,11 @@ SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, con
   memcpy(group->colour, colour, sizeof group->colour);
   glGenVertexArrays(1, &group->vertex_array);
   glGenBuffers(1, &group->moving);
-  if (values) {
-    glGenBuffers(1, &group->values);
-    glBindBuffer(GL_ARRAY_BUFFER, group->values);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof(float)), values, GL_STATIC_DRAW);
-  }
+  group->added = count;
   spore_drawable_set_bounds(&group->base, spheres, count, 4, TRUE, TRUE);
   spore_sphere_group_move(group, spheres, count);
   describe(group);
+  spore_sphere_group_value(group, values);
   return group;
 }
 

@@ -54,6 +54,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   clear(stage);
   stage->simulation = simulation;
   stage->cut_count = 0;
+  stage->touch_end = 0;
   g_array_set_size(stage->lenses, 0);
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
@@ -124,12 +125,14 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; snapshot->stain && i < stage->bodies->len; i++)
     spore_stage_body_stain(stage, stage->bodies->pdata[i], snapshot);
   spore_stage_show_field(stage, snapshot);
+  spore_stage_show_touch(stage, snapshot);
   if (stage->marks_handle) spore_renderer_set_visible(stage->renderer, stage->marks_handle, snapshot->step == 0);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
 }
 
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options) {
   if (options->field != stage->options.field) spore_stage_drop_field(stage);
+  spore_stage_drop_touch(stage); /* the next snapshot brings it again */
   stage->options = *options;
   for (guint i = 0; i < stage->bodies->len; i++) {
     spore_stage_body_show(stage, stage->bodies->pdata[i]);

@@ -210,6 +210,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   body->solid = !body->surface_handle && !body->liquid;
   const SporeStageFit *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
   body->fit_high = fit ? fit->high : 0;
+  body->fits = fit ? g_memdup2(fit->places, set->count * sizeof *fit->places) : NULL;
   body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
                                                     body->solid ? body->style.colour : sphere_colour,
                                                     fit ? fit->places : NULL, !body->solid);
@@ -304,6 +305,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   spore_free(body->places);
   spore_free(body->edges);
   g_free(body->spheres);
+  g_free(body->fits);
   g_free(body->puffs);
   g_free(body->segments);
   g_free(body->q);
@@ -389,17 +391,6 @@ gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStag
       (instead && (instead->sphere_count || instead->triangle_count)))
     return FALSE;
   return stage->options.spheres || (body->solid && stage->options.surfaces);
-}
-
-SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
-  SporeSphereScale scale = {0};
-  for (guint i = 0; i < stage->bodies->len; i++) {
-    const SporeStageBody *body = stage->bodies->pdata[i];
-    if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
-    scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
-    scale.share = SPORE_STAGE_FIT_SCALE;
-  }
-  return scale;
 }
 
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {

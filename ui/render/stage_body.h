@@ -59,6 +59,7 @@ typedef struct SporeStageBody {
   double *spheres;    /* centres.count x 4, world */
   gsize shown;        /* number of centres and spheres in the world; they come first */
   gboolean solid;     /* the spheres are drawn as the body itself */
+  float *fits;        /* place of each sphere's error on the scale; NULL: the spheres show no error */
   double fit_high;    /* m: end of the scale of the spheres' errors; 0: the spheres show no error */
   guint spheres_handle;
 
@@ -92,6 +93,7 @@ struct SporeStage {
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
   GArray *contacts;                     /* double: segments of the contacts shown */
+  double touch_end;                     /* N: of the scale of forces on spheres that is shown; 0: none is */
   double contact_longest, contact_most; /* m: no line is longer; N: the largest force shown */
   const SporeStageCandidate *candidate; /* NULL: none */
   guint candidate_handles[5];           /* spheres, the marked one, surface, edges, lines; 0: none */
@@ -139,6 +141,12 @@ typedef struct SporeStageFit {
   float places[]; /* place of each sphere's error on the scale, 0..1 */
 } SporeStageFit;
 const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+/* Colours spheres by the forces of the snapshot's contacts, where contacts and spheres are shown. */
+void spore_stage_show_touch(SporeStage *stage, const SporeSnapshot *snapshot);
+/* Colours spheres by their errors again. */
+void spore_stage_drop_touch(SporeStage *stage);
+/* The least of 1, 2 and 5 times a power of ten that is not less than the value, above 0, but for rounding. */
+double spore_stage_round_up(double value);
 GPtrArray *spore_stage_fits_new(void);
 void spore_stage_fits_free(GPtrArray *fits);
 /* The stage's textures: none at first; those that no body has had since the last call are removed. */

@@ -6,7 +6,6 @@
 
 #include "core/body/cell_fields.h"
 #include "core/scene/fidelity.h"
-#include "core/scene/length_unit.h"
 #include "core/scene/level_settings.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/stage_body.h"
@@ -235,12 +234,6 @@ static double largest(const double *values, gsize count, double most) {
   return most;
 }
 
-/* The least of 1, 2 and 5 times a power of ten that is not less, but for rounding. */
-static double round_up(double value) {
-  double least = value * (1 - 1e-6), power = pow(10, floor(log10(least))), first = least / power;
-  return power * (first <= 1 ? 1 : first <= 2 ? 2 : first <= 5 ? 5 : 10);
-}
-
 static double find_end(const SporeStage *stage) {
   double most = fields[stage->options.field].least;
   if (stage->options.field == SPORE_FIELD_LEVEL) return most;
@@ -250,7 +243,7 @@ static double find_end(const SporeStage *stage) {
     if (body->shade && spore_stage_shows(stage, body->object))
       most = largest(body->shade->values, body->shade->count, most);
   }
-  return round_up(most);
+  return spore_stage_round_up(most);
 }
 
 static void colour(const SporeStage *stage, guint handle, const double *values, gsize count) {
@@ -356,48 +349,12 @@ gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend) {
   return TRUE;
 }
 
-gboolean spore_stage_sphere_legend(const SporeStage *stage, SporeStageLegend *legend) {
-  SporeSphereScale scale = spore_stage_sphere_scale(stage);
-  *legend = (SporeStageLegend){0};
-  if (!(scale.share > 0)) return FALSE;
-  legend->label = g_strdup(_("Depth error"));
-  legend->low = g_strdup("0");
-  legend->high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
-                                : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
-  return TRUE;
-}
-
-gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *legend) {
-  *legend = (SporeStageLegend){0};
-  if (!stage->options.contacts || !(stage->contact_longest > 0)) return FALSE;
-  g_autofree char *newton = spore_length_text(0.5 * stage->contact_longest);
-  legend->label = g_strdup(_("Contact forces"));
-  legend->range = g_strdup_printf(_("1 N is a line of %s"), newton);
-  legend->without = stage->contact_most > 0 ? g_strdup_printf(_("largest now: %.3g N"), stage->contact_most)
-                                            : g_strdup(_("nothing touches now"));
-  return TRUE;
-}
-
 char *spore_stage_legend_text(const SporeStageLegend *legend) {
   g_autofree char *scale = legend->high ? g_strdup_printf(_("%s to %s"), legend->low, legend->high) : NULL;
   g_autofree char *range = scale && legend->range ? g_strdup_printf("%s (%s)", scale, legend->range) : NULL;
   const char *first = range ? range : scale ? scale : legend->range;
   return g_strdup_printf("%s: %s%s%s", legend->label, first ? first : "", first && legend->without ? "; " : "",
                          legend->without ? legend->without : "");
-}
-
-char *spore_stage_legends_text(const SporeStage *stage) {
-  gboolean (*const kinds[])(const SporeStage *, SporeStageLegend *) = {spore_stage_legend, spore_stage_sphere_legend,
-                                                                       spore_stage_contact_legend};
-  GString *lines = g_string_new(NULL);
-  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) {
-    SporeStageLegend legend;
-    if (!kinds[i](stage, &legend)) continue;
-    g_autofree char *text = spore_stage_legend_text(&legend);
-    g_string_append_printf(lines, "%s\n", text);
-    spore_stage_legend_clear(&legend);
-  }
-  return g_string_free(lines, FALSE);
 }
 
 void spore_stage_legend_clear(SporeStageLegend *legend) {

@@ -100,3 +100,59 @@ void spore_stage_fits_free(GPtrArray *fits) {
   for (guint i = 0; i < fits->len; i++) ((Work *)fits->pdata[i])->stage = NULL;
   g_ptr_array_free(fits, TRUE);
 }
+
+/* Forces on spheres. */
+
+#define LEAST_TOUCH 0.01 /* N: the least end of the scale */
+
+double spore_stage_round_up(double value) {
+  double least = value * (1 - 1e-6), power = pow(10, floor(log10(least))), first = least / power;
+  return power * (first <= 1 ? 1 : first <= 2 ? 2 : first <= 5 ? 5 : 10);
+}
+
+/* Which sphere belongs to which body never changes, though the world may be stepping. */
+static gsize first_sphere(const SporeWorld *world, guint32 body) {
+  const SporeSpheres *all = spore_world_spheres(world);
+  gsize first = 0;
+  while (first < all->count && all->body[first] != body) first++;
+  return first;
+}
+
+/* Spheres that are particles or the body itself keep their look. */
+static gboolean shows_touch(const SporeStage *stage, const SporeStageBody *body) {
+  return body->spheres_handle && !body->solid && !body->particles && body->world_body != SPORE_NO_BODY &&
+         body->centres.count == spore_world_body_sphere_count(stage->simulation->world, body->world_body);
+}
+
+static void colour_touch(const SporeStage *stage, const SporeStageBody *body, const double *forces) {
+  const double *own = forces + first_sphere(stage->simulation->world, body->world_body);
+  g_autofree float *places = g_new(float, body->centres.count);
+  for (gsize i = 0; i < body->centres.count; i++) places[i] = (float)MIN(own[i] / stage->touch_end, 1);
+  spore_renderer_value_spheres(stage->renderer, body->spheres_handle, places);
+}
+
+void spore_stage_show_touch(SporeStage *stage, const SporeSnapshot *snapshot) {
+  if (!stage->simulation || !stage->options.spheres || !stage->options.contacts) return;
+  gsize count = spore_world_spheres(stage->simulation->world)->count;
+  g_autofree double *forces = g_new0(double, count + 1);
+  double most = LEAST_TOUCH;
+  for (gsize i = 0; i < MIN(snapshot->contact_count, snapshot->contact_capacity); i++) {
+    const SporeSnapshotContact *contact = &snapshot->contacts[i];
+    double force = spore_vec3_length(contact->force);
+    forces[contact->sphere_a] += force;
+    forces[contact->sphere_b] += force;
+  }
+  for (gsize i = 0; i < count; i++) most = MAX(most, forces[i]);
+  stage->touch_end = spore_stage_round_up(most);
+  for (guint i = 0; i < stage->bodies->len; i++)
+    if (shows_touch(stage, stage->bodies->pdata[i])) colour_touch(stage, stage->bodies->pdata[i], forces);
+}
+
+void spore_stage_drop_touch(SporeStage *stage) {
+  if (!stage->touch_end) return;
+  stage->touch_end = 0;
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    if (body->spheres_handle) spore_renderer_value_spheres(stage->renderer, body->spheres_handle, body->fits);
+  }
+}
