@@ -147,6 +147,7 @@ static gboolean reads(SporeDocument *document, SporeObject *object, guint proper
   if (g_str_equal(element, "spheres")) return spore_document_spheres(document, object, error) != NULL;
   if (g_str_equal(element, "label_map")) return reads_labels(place, content, progress, error);
   if (g_str_equal(element, "track")) return reads_track(place, content, error);
+  if (!g_str_equal(element, "visual")) return TRUE; /* a kept pose: it is read with its body */
   return g_str_equal(spore_object_type(object)->table->parameters[property].name, "texture")
              ? spore_texture_size(place, content, &width, &height, error)
              : reads_places(document, object, place, content, error);
