@@ -414,6 +414,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"rename", act_rename, "s"},
       {"move-row", act_move_row, "i"},
       {"rename-dialog", act_rename_dialog},
+      {"rename-row", act_rename_dialog},
       {"set-property", act_set_property, "(sss)"},
       {"unset-property", act_unset_property, "(ss)"},
       {"set-model", act_set_model, "s"},

@@ -3,6 +3,7 @@
 
 #include "core/author/edits.h"
 #include "core/author/level_edits.h"
+#include "core/author/order_edits.h"
 #include "core/author/removal.h"
 #include "core/author/soft_edits.h"
 #include "ui/spore-window-private.h"
@@ -178,6 +179,30 @@ static void act_unlock_all(GSimpleAction *action, GVariant *parameter, gpointer 
   locks_changed(self);
 }
 
+/* Folders. */
+
+static void put_in_folder(SporeWindow *self, const char *folder) {
+  g_autoptr(GPtrArray) bodies = spore_editor_document_selected_bodies(self->document);
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32));
+  g_autoptr(GError) error = NULL;
+  for (guint i = 0; i < bodies->len; i++) {
+    guint32 id = spore_object_id(bodies->pdata[i]);
+    g_array_append_val(ids, id);
+  }
+  if (!spore_edit_put_in_folder(document_of(self), ids, *folder ? folder : NULL, &error))
+    spore_window_failed(self, error);
+}
+
+static void act_put_in_folder(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  put_in_folder(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_new_folder(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autofree char *name = spore_folder_new_name(document_of(self));
+  put_in_folder(self, name);
+}
+
 /* Deleting. */
 
 /* What went along, and how to have it back. */
@@ -231,6 +256,8 @@ void spore_window_add_body_actions(SporeWindow *self) {
       {"lock", act_lock},
       {"lock-or-unlock", act_lock_or_unlock, "s"},
       {"unlock-all", act_unlock_all},
+      {"put-in-folder", act_put_in_folder, "s"},
+      {"new-folder", act_new_folder},
       {"delete", act_delete},
       {"delete-alone", act_delete},
       {"keep-along", act_keep_along},

@@ -13,7 +13,9 @@
  *               close, locate [s missing file, as the scene names it, s path], locate-dialog
  *   edit        fix (the selected problem), undo, redo, select [s path], rename [s name], rename-dialog, delete,
  *               delete-alone (assets and steps of the exercise stay), keep-along (what the last delete took besides),
- *               move-row [i -1 or 1] (of what is selected, in its list), set-property [s path, s name, s value],
+ *               rename-row (of the outliner, folders too), new-folder (of the selected bodies),
+ *               put-in-folder [s folder, "": none], move-row [i -1 or 1] (of what is selected, in its list),
+ *               set-property [s path, s name, s value],
  *               unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
  *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,

@@ -52,8 +52,9 @@ static gboolean is_shown_alone(const char *element) {
   return g_strv_contains(elements, element);
 }
 
-/* How far an instrument gets through a port is shown to authors; a run does not keep to it. */
+/* How far an instrument gets through a port is shown to authors, and so are folders; a run does not keep to them. */
 static gboolean is_of_a_run(const SporeObjectType *type, const char *property) {
+  if (strcmp(type->element, "body") == 0 && strcmp(property, "folder") == 0) return FALSE;
   return strcmp(type->element, "port") != 0 || !g_str_has_prefix(property, "reach_");
 }
 

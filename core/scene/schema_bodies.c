@@ -63,6 +63,14 @@ static const SporeParameter body_parameters[] = {
      FIELD(SporeBodyFields, name_guessed),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Whether the name is a guess by the number of the label that the body was made of; false confirms it.")},
+    {.name = "folder",
+     .type = SPORE_TEXT,
+     .unit = "",
+     FIELD(SporeBodyFields, folder),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("Folder of the outliner in which the body is listed, with all others that say the same; none: it is listed "
+            "by itself. It changes nothing but that.")},
 };
 
 static const SporeParameter mechanical_parameters[] = {

@@ -38,6 +38,7 @@ typedef struct SporeBodyFields {
   double position[3], rotation[3], velocity[3], spin[3];
   const char *kept_pose; /* NULL: none */
   bool name_guessed;
+  const char *folder; /* NULL: none */
 } SporeBodyFields;
 
 typedef struct SporeMechanicalFields {

@@ -1,6 +1,7 @@
 /* Objects change their place in the list of their section, several in their order, as one step that undoes exactly;
  * what belongs to another list is refused, and nothing moves. */
 #include "core/author/order_edits.h"
+#include "core/scene/run_hash.h"
 #include "tests/scene/fixture.h"
 
 static const char scene_text[] =
@@ -63,9 +64,43 @@ static void test_refused(void) {
   spore_document_free(document);
 }
 
+static guint count_in(SporeDocument *document, const char *folder) {
+  const SporeObject *bodies = spore_document_section(document, "bodies");
+  guint count = 0;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    count += g_strcmp0(spore_folder_of(spore_object_child(bodies, i)), folder) == 0;
+  return count;
+}
+
+/* A folder is nothing but what its bodies say; a run does not depend on it. */
+static void test_folders(void) {
+  SporeDocument *document = fixture_parse(scene_text);
+  guint64 hash = spore_document_run_hash(document);
+  g_autoptr(GArray) ids = g_array_new(FALSE, FALSE, sizeof(guint32));
+  static const char *const paths[] = {"bodies/a", "bodies/c", "tools/eye"}; /* a camera is in no folder */
+  for (gsize i = 0; i < G_N_ELEMENTS(paths); i++) {
+    guint32 id = spore_object_id(spore_document_by_path(document, paths[i]));
+    g_array_append_val(ids, id);
+  }
+  g_autofree char *name = spore_folder_new_name(document);
+  g_assert_true(spore_edit_put_in_folder(document, ids, name, NULL));
+  g_assert_cmpuint(count_in(document, name), ==, 2);
+  g_autofree char *other = spore_folder_new_name(document);
+  g_assert_cmpstr(other, !=, name);
+  g_assert_true(spore_edit_rename_folder(document, name, "Pelvis", NULL));
+  g_assert_cmpuint(count_in(document, "Pelvis"), ==, 2);
+  g_assert_cmpuint(spore_document_run_hash(document), ==, hash);
+  spore_document_undo(document);
+  g_assert_cmpuint(count_in(document, name), ==, 2);
+  g_assert_true(spore_edit_rename_folder(document, name, NULL, NULL));
+  g_assert_cmpuint(count_in(document, NULL), ==, 4);
+  spore_document_free(document);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/order/moved", test_moved);
   g_test_add_func("/order/refused", test_refused);
+  g_test_add_func("/order/folders", test_folders);
   return g_test_run();
 }

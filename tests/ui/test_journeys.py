@@ -2143,9 +2143,24 @@ def locked_bodies_are_looked_through(editor):
     ui.wait(lambda: click() or title("ball"), "the ball to be selected again")
 
 
+def folders_of_the_outliner(editor, row_at):
+    """Of ball, third and floor, none of them in a folder."""
+    editor.act("select", "s", "bodies/third")
+    editor.act("new-folder")
+    ui.wait(lambda: editor.row("Folder") and row_at("Folder")[1] < row_at("third")[1], "a folder with the body in it")
+    drag_row(editor, "ball", "Folder", lambda: row_at("Folder")[1] < row_at("ball")[1] < row_at("third")[1] < row_at("floor")[1])
+    assert re.findall(r'<body name="(\w+)"[^>]*folder="Folder"', saved(editor, "folder")) == ["ball", "third"]
+    keep_picture(editor, "folder")
+    editor.atspi.Component.grab_focus(editor.find("tree table", "^Outliner$"))
+    ui.wait(lambda: editor.keys("Left") or not editor.row("third"), "Left to go to the folder, and to fold it")
+    editor.act("undo")
+    editor.act("undo")
+    ui.wait(lambda: not editor.row("Folder"), "the folder to go")
+
+
 @check
 def rows_of_the_outliner_are_ordered():
-    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own; a click in the view goes through what is locked."""
+    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own; a click in the view goes through what is locked; bodies are put into folders, which are folded."""
     path = write_scene("ordered", "<rigid_body/>")
     path.write_text(path.read_text().replace("</bodies>", '<body name="third" role="unmovable"/></bodies><tools><camera name="eye"/></tools>'))
     row_at = lambda name: editor.place(ui.wait(lambda: editor.row(name), name))
@@ -2171,6 +2186,7 @@ def rows_of_the_outliner_are_ordered():
         assert order_of(saved(editor, "dragged")) == ["floor", "ball", "third"]
         editor.act("undo")
         ui.wait(lambda: row_at("ball")[1] < row_at("third")[1] < row_at("floor")[1], "the order of before")
+        folders_of_the_outliner(editor, row_at)
 
 
 @check

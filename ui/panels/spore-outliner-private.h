@@ -5,7 +5,7 @@
 #include "ui/panels/spore-outliner.h"
 
 enum {
-  COLUMN_ID, /* of the object; 0: a heading */
+  COLUMN_ID, /* of the object; 0: a heading, or a folder below one */
   COLUMN_NAME,
   COLUMN_BADGE,
   COLUMN_HINT /* markup */,
@@ -31,14 +31,17 @@ struct _SporeOutliner {
   GHashTable *problems; /* id -> char *: what the badge stands for */
   GHashTable *hidden;   /* ids of bodies that are hidden in the view; the view's; NULL: not told yet */
   GHashTable *locked;   /* likewise, of bodies that are locked in the view */
+  GHashTable *folded;   /* names of headings and folders that are folded; of char * */
   guint32 dragged;      /* id of the row that is dragged; 0: none, and so long the rows stay as they are */
 };
 
 /* spore-outliner-order.c: moving rows within their list. */
 /* Lets rows be dragged. */
 void spore_outliner_take_drags(SporeOutliner *self);
-/* Object of the row, which the filter shows; NULL: a heading. */
+/* Object of the row, which the filter shows; NULL: a heading or a folder. */
 SporeObject *spore_outliner_object_at(SporeOutliner *self, GtkTreePath *path);
+/* Name of the folder that the row is; NULL: it is none. g_free. */
+char *spore_outliner_folder_at(SporeOutliner *self, GtkTreePath *path);
 
 /* spore-outliner-menu.c: the menu of the right button and of the Menu key. */
 /* event: what asked for it; path: of the row. */

@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/author/order_edits.h"
 #include "core/scene/check.h"
 #include "core/sim/world.h"
 #include "ui/panels/report.h"
@@ -70,12 +71,78 @@ static void add_tools(SporeOutliner *self, GtkTreeIter *group, gboolean cameras)
   }
 }
 
+/* The row of a body's folder, which stands where its first body would; the heading where it has none. */
+static GtkTreeIter row_above(SporeOutliner *self, GtkTreeIter *group, const SporeObject *body, GHashTable *folders) {
+  const char *folder = spore_folder_of(body);
+  GtkTreeIter *known = folder ? g_hash_table_lookup(folders, folder) : NULL, row;
+  if (!folder) return *group;
+  if (known) return *known;
+  gtk_tree_store_insert_with_values(self->store, &row, group, -1, COLUMN_ID, 0, COLUMN_NAME, folder, COLUMN_HINT,
+                                    _("Folder"), COLUMN_EDITABLE, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND,
+                                    _("Folder"), -1);
+  g_hash_table_insert(folders, g_strdup(folder), gtk_tree_iter_copy(&row));
+  return row;
+}
+
+static void free_iter(gpointer data) { gtk_tree_iter_free(data); }
+
 static void add_bodies(SporeOutliner *self, GtkTreeIter *group, gboolean active) {
   SporeObject *section = spore_document_section(spore_editor_document_get(self->document), "bodies");
+  g_autoptr(GHashTable) folders = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_iter);
   for (guint i = 0; i < spore_object_child_count(section); i++) {
     SporeObject *body = spore_object_child(section, i);
-    if ((spore_object_number(body, "role") == SPORE_ACTIVE) == active) add_object(self, group, body);
+    if ((spore_object_number(body, "role") == SPORE_ACTIVE) != active) continue;
+    GtkTreeIter above = row_above(self, group, body, folders);
+    add_object(self, &above, body);
   }
+}
+
+/* Icons of a folder: what its bodies are, all of them. */
+static gboolean update_folder(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  GtkTreeIter child;
+  guint id;
+  gboolean hidden = TRUE, locked = TRUE;
+  gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
+  if (id || gtk_tree_path_get_depth(path) != 2 || !gtk_tree_model_iter_children(model, &child, iter)) return FALSE;
+  do {
+    gtk_tree_model_get(model, &child, COLUMN_ID, &id, -1);
+    hidden = hidden && self->hidden && g_hash_table_contains(self->hidden, GUINT_TO_POINTER(id));
+    locked = locked && self->locked && g_hash_table_contains(self->locked, GUINT_TO_POINTER(id));
+  } while (gtk_tree_model_iter_next(model, &child));
+  gtk_tree_store_set(self->store, iter, COLUMN_EYE, hidden ? "view-conceal-symbolic" : "view-reveal-symbolic",
+                     COLUMN_LOCK, locked ? "changes-prevent-symbolic" : "changes-allow-symbolic", -1);
+  return FALSE;
+}
+
+/* What is folded stays so; while something is filtered, all that matches is seen. */
+static gboolean fold(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  g_autofree char *name = NULL;
+  gtk_tree_model_get(model, iter, COLUMN_NAME, &name, -1);
+  if (gtk_tree_model_iter_has_child(model, iter) && name && g_hash_table_contains(self->folded, name))
+    gtk_tree_view_collapse_row(GTK_TREE_VIEW(self->tree), path);
+  return FALSE;
+}
+
+static void unfold(SporeOutliner *self) {
+  gtk_tree_view_expand_all(GTK_TREE_VIEW(self->tree));
+  if (*gtk_entry_get_text(GTK_ENTRY(self->filter)) == '\0')
+    gtk_tree_model_foreach(GTK_TREE_MODEL(self->filtered), fold, self);
+}
+
+static void row_folded(GtkTreeView *tree, GtkTreeIter *iter, GtkTreePath *path, SporeOutliner *self) {
+  char *name;
+  if (self->filling) return;
+  gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), iter, COLUMN_NAME, &name, -1);
+  g_hash_table_add(self->folded, name);
+}
+
+static void row_unfolded(GtkTreeView *tree, GtkTreeIter *iter, GtkTreePath *path, SporeOutliner *self) {
+  g_autofree char *name = NULL;
+  if (self->filling) return;
+  gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), iter, COLUMN_NAME, &name, -1);
+  g_hash_table_remove(self->folded, name);
 }
 
 static void fill(SporeOutliner *self) {
@@ -96,7 +163,8 @@ static void fill(SporeOutliner *self) {
   add_section(self, &group, "links");
   add_group(self, _("Assets"), 0, &group);
   add_section(self, &group, "assets");
-  gtk_tree_view_expand_all(GTK_TREE_VIEW(self->tree));
+  gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_folder, self);
+  unfold(self);
 }
 
 /* Selection, both ways. */
@@ -121,8 +189,14 @@ static void show_selection(SporeOutliner *self) {
 
 static void collect(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer ids) {
   guint id = 0;
+  GtkTreeIter child;
   gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
   if (id) g_array_append_val((GArray *)ids, id);
+  if (id || !gtk_tree_model_iter_children(model, &child, iter)) return;
+  do { /* of a folder, its bodies */
+    gtk_tree_model_get(model, &child, COLUMN_ID, &id, -1);
+    g_array_append_val((GArray *)ids, id);
+  } while (gtk_tree_model_iter_next(model, &child));
 }
 
 /* The first selected object stays the first where it is still selected. */
@@ -144,7 +218,7 @@ static gboolean may_select(GtkTreeSelection *selection, GtkTreeModel *model, Gtk
   GtkTreeIter iter;
   guint id = 0;
   if (gtk_tree_model_get_iter(model, &iter, path)) gtk_tree_model_get(model, &iter, COLUMN_ID, &id, -1);
-  return id != 0;
+  return id != 0 || gtk_tree_path_get_depth(path) == 2;
 }
 
 /* Arrow keys go on from the selected row. */
@@ -160,7 +234,9 @@ static gboolean put_cursor(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *
 static gboolean rebuild(gpointer data) {
   SporeOutliner *self = data;
   self->rebuild = 0;
-  if (self->dragged) return G_SOURCE_REMOVE; /* the end of the drag queues it again */
+  gboolean editing;
+  g_object_get(self->name, "editing", &editing, NULL);
+  if (self->dragged || editing) return G_SOURCE_REMOVE; /* the end of that queues it again */
   self->filling = TRUE;
   fill(self);
   gtk_tree_model_foreach(GTK_TREE_MODEL(self->filtered), put_cursor, self);
@@ -178,12 +254,14 @@ static void drag_ends(GtkWidget *tree, GdkDragContext *context, SporeOutliner *s
   queue_rebuild(self);
 }
 
-/* Only names, roles and the objects that exist are shown here. */
+/* Only names, roles, folders and the objects that exist are shown here. */
 static void document_changed(SporeOutliner *self, int kind, guint id, guint property) {
   SporeObject *object =
       kind == SPORE_DOCUMENT_SET ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
   const SporeParameter *parameter = object ? &spore_object_type(object)->table->parameters[property] : NULL;
-  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role")) queue_rebuild(self);
+  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role") ||
+      g_str_equal(parameter->name, "folder"))
+    queue_rebuild(self);
 }
 
 /* Filter. */
@@ -202,13 +280,17 @@ static gboolean row_visible(GtkTreeModel *model, GtkTreeIter *iter, gpointer dat
   GtkTreeIter parent;
   if (*text == '\0' || !gtk_tree_model_iter_parent(model, &parent, iter)) return TRUE;
   g_autofree char *wanted = g_utf8_casefold(text, -1);
+  GtkTreeIter child;
+  gboolean more = gtk_tree_model_iter_children(model, &child, iter); /* of a folder */
+  for (; more; more = gtk_tree_model_iter_next(model, &child))
+    if (matches(model, &child, wanted)) return TRUE;
   return matches(model, iter, wanted);
 }
 
 static void filter_changed(GtkSearchEntry *entry, SporeOutliner *self) {
   self->filling = TRUE;
   gtk_tree_model_filter_refilter(self->filtered);
-  gtk_tree_view_expand_all(GTK_TREE_VIEW(self->tree));
+  unfold(self);
   self->filling = FALSE;
   if (self->document) show_selection(self);
 }
@@ -220,26 +302,55 @@ void spore_outliner_focus_filter(SporeOutliner *self) { gtk_widget_grab_focus(se
 static void name_edited(GtkCellRendererText *cell, const char *path, const char *text, SporeOutliner *self) {
   GtkTreeIter iter;
   guint id;
+  queue_rebuild(self); /* what was put off meanwhile */
   if (!gtk_tree_model_get_iter_from_string(GTK_TREE_MODEL(self->filtered), &iter, path)) return;
   gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), &iter, COLUMN_ID, &id, -1);
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *object = spore_document_by_id(document, id);
   g_autoptr(GError) error = NULL;
+  g_autoptr(GtkTreePath) row = gtk_tree_path_new_from_string(path);
+  g_autofree char *folder = spore_outliner_folder_at(self, row);
+  if (folder && *text && !g_str_equal(folder, text) && !spore_edit_rename_folder(document, folder, text, &error))
+    spore_report(GTK_WIDGET(self), error);
   if (!object || g_strcmp0(spore_object_name(object), text) == 0) return;
   if (!spore_document_rename(document, object, text, &error)) spore_report(GTK_WIDGET(self), error);
 }
 
 void spore_outliner_rename(SporeOutliner *self) {
   GList *rows = gtk_tree_selection_get_selected_rows(self->selection, NULL);
+  g_autoptr(GtkTreePath) cursor = NULL;
   gtk_widget_grab_focus(self->tree);
+  gtk_tree_view_get_cursor(GTK_TREE_VIEW(self->tree), &cursor, NULL);
+  g_autofree char *folder = cursor ? spore_outliner_folder_at(self, cursor) : NULL;
+  if (folder) {
+    self->filling = TRUE; /* its bodies stay selected */
+    gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), cursor, self->column, self->name, TRUE);
+    self->filling = FALSE;
+    g_list_free_full(rows, (GDestroyNotify)gtk_tree_path_free);
+    return;
+  }
   if (rows && !rows->next)
     gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), rows->data, self->column, self->name, TRUE);
   g_list_free_full(rows, (GDestroyNotify)gtk_tree_path_free);
 }
 
+/* Left folds the row, or goes to the one above it; Right unfolds it. */
+static void walk(SporeOutliner *self, gboolean in) {
+  GtkTreeView *tree = GTK_TREE_VIEW(self->tree);
+  g_autoptr(GtkTreePath) path = NULL;
+  gtk_tree_view_get_cursor(tree, &path, NULL);
+  if (!path) return;
+  if (in) gtk_tree_view_expand_row(tree, path, FALSE);
+  else if (!gtk_tree_view_collapse_row(tree, path) && gtk_tree_path_get_depth(path) > 1 && gtk_tree_path_up(path))
+    gtk_tree_view_set_cursor(tree, path, NULL, FALSE);
+}
+
 static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *self) {
   gboolean alt = event->state & GDK_MOD1_MASK;
+  gboolean plain = !(event->state & gtk_accelerator_get_default_mod_mask());
   if (event->keyval == GDK_KEY_F2) spore_outliner_rename(self);
+  else if (plain && event->keyval == GDK_KEY_Left) walk(self, FALSE);
+  else if (plain && event->keyval == GDK_KEY_Right) walk(self, TRUE);
   else if (alt && event->keyval == GDK_KEY_Up) spore_outliner_move(self, -1);
   else if (alt && event->keyval == GDK_KEY_Down) spore_outliner_move(self, 1);
   else if (event->keyval == GDK_KEY_Delete) spore_activate(tree, "delete", NULL);
@@ -265,6 +376,7 @@ static void take_ids(SporeOutliner *self, GHashTable **of, GHashTable *ids) {
   g_clear_pointer(of, g_hash_table_unref);
   *of = ids;
   if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_icons, self);
+  if (self->document) gtk_tree_model_foreach(GTK_TREE_MODEL(self->store), update_folder, self);
 }
 
 void spore_outliner_set_hidden(SporeOutliner *self, GHashTable *hidden) { take_ids(self, &self->hidden, hidden); }
@@ -276,6 +388,26 @@ static gboolean tree_menu(GtkWidget *tree, SporeOutliner *self) {
   gtk_tree_view_get_cursor(GTK_TREE_VIEW(tree), &path, NULL);
   if (path) spore_outliner_popup(self, NULL, path);
   return path != NULL;
+}
+
+/* The eye or lock of a folder: all of its bodies get what they are not all. */
+static void toggle_folder(SporeOutliner *self, GtkTreePath *path, const char *action, GHashTable *ids) {
+  GtkTreeModel *model = GTK_TREE_MODEL(self->filtered);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_autoptr(GPtrArray) out = g_ptr_array_new(), in = g_ptr_array_new();
+  GtkTreeIter iter, child;
+  gboolean more = gtk_tree_model_get_iter(model, &iter, path) && gtk_tree_model_iter_children(model, &child, &iter);
+  for (; more; more = gtk_tree_model_iter_next(model, &child)) {
+    guint id;
+    gtk_tree_model_get(model, &child, COLUMN_ID, &id, -1);
+    SporeObject *body = spore_document_by_id(document, id);
+    if (body) g_ptr_array_add(is_in(ids, body) ? in : out, body);
+  }
+  const GPtrArray *wrong = out->len ? out : in;
+  for (guint i = 0; i < wrong->len; i++) {
+    g_autofree char *of_body = spore_object_path(wrong->pdata[i]);
+    spore_activate(self->tree, action, g_variant_new_string(of_body));
+  }
 }
 
 /* A click on an eye hides the body or shows it, one on a lock locks it or frees it; neither selects. */
@@ -292,6 +424,11 @@ static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutlin
   }
   SporeObject *object = spore_outliner_object_at(self, path);
   const char *action = column == self->eye ? "hide-or-show" : column == self->lock ? "lock-or-unlock" : NULL;
+  g_autofree char *folder = spore_outliner_folder_at(self, path);
+  if (event->button == GDK_BUTTON_PRIMARY && action && folder) {
+    toggle_folder(self, path, action, column == self->eye ? self->hidden : self->locked);
+    return GDK_EVENT_STOP;
+  }
   if (event->button != GDK_BUTTON_PRIMARY || !action || !object || !eye_of(self, object)) return GDK_EVENT_PROPAGATE;
   g_autofree char *of_body = spore_object_path(object);
   spore_activate(tree, action, g_variant_new_string(of_body));
@@ -342,6 +479,7 @@ static void spore_outliner_dispose(GObject *object) {
   release_document(self);
   g_clear_pointer(&self->badges, g_hash_table_unref);
   g_clear_pointer(&self->problems, g_hash_table_unref);
+  g_clear_pointer(&self->folded, g_hash_table_unref);
   g_clear_pointer(&self->hidden, g_hash_table_unref);
   g_clear_pointer(&self->locked, g_hash_table_unref);
   G_OBJECT_CLASS(spore_outliner_parent_class)->dispose(object);
@@ -371,9 +509,13 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
 static void spore_outliner_init(SporeOutliner *self) {
   self->badges = g_hash_table_new(NULL, NULL);
   self->problems = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  self->folded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   gtk_widget_init_template(GTK_WIDGET(self));
+  g_signal_connect(self->tree, "row-collapsed", G_CALLBACK(row_folded), self);
+  g_signal_connect(self->tree, "row-expanded", G_CALLBACK(row_unfolded), self);
   gtk_tree_model_filter_set_visible_func(self->filtered, row_visible, self, NULL);
   spore_outliner_take_drags(self);
   g_signal_connect(self->tree, "drag-end", G_CALLBACK(drag_ends), self);
+  g_signal_connect_swapped(self->name, "editing-canceled", G_CALLBACK(queue_rebuild), self);
   gtk_tree_selection_set_select_function(self->selection, may_select, self, NULL);
 }
