@@ -369,7 +369,7 @@ def several_bodies_at_once():
         editor.mouse("keyup", "shift")
         editor.find("label", "^liver, spleen$")
         editor.act("select", "s", "bodies/thing")
-        x, y = middle(editor, editor.find(".*", "^Viewport$"))
+        x, y = middle(editor, editor.drawn_view())
         editor.mouse("keydown", "shift")
         click(editor, (x, y))
         editor.mouse("keyup", "shift")

@@ -316,6 +316,13 @@ static void name_edited(GtkCellRendererText *cell, const char *path, const char 
   if (!spore_document_rename(document, object, text, &error)) spore_report(GTK_WIDGET(self), error);
 }
 
+/* The name can be edited from here on alone: else a click on a selected row would begin that, and a drag of it not. */
+static void edit_name(SporeOutliner *self, GtkTreePath *path) {
+  g_object_set(self->name, "editable", TRUE, NULL);
+  gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), path, self->column, self->name, TRUE);
+  g_object_set(self->name, "editable", FALSE, NULL);
+}
+
 void spore_outliner_rename(SporeOutliner *self) {
   GList *rows = gtk_tree_selection_get_selected_rows(self->selection, NULL);
   g_autoptr(GtkTreePath) cursor = NULL;
@@ -324,13 +331,12 @@ void spore_outliner_rename(SporeOutliner *self) {
   g_autofree char *folder = cursor ? spore_outliner_folder_at(self, cursor) : NULL;
   if (folder) {
     self->filling = TRUE; /* its bodies stay selected */
-    gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), cursor, self->column, self->name, TRUE);
+    edit_name(self, cursor);
     self->filling = FALSE;
     g_list_free_full(rows, (GDestroyNotify)gtk_tree_path_free);
     return;
   }
-  if (rows && !rows->next)
-    gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), rows->data, self->column, self->name, TRUE);
+  if (rows && !rows->next) edit_name(self, rows->data);
   g_list_free_full(rows, (GDestroyNotify)gtk_tree_path_free);
 }
 
@@ -410,13 +416,18 @@ static void toggle_folder(SporeOutliner *self, GtkTreePath *path, const char *ac
   }
 }
 
-/* A click on an eye hides the body or shows it, one on a lock locks it or frees it; neither selects. */
+/* A click on an eye hides the body or shows it, one on a lock locks it or frees it; neither selects. Two clicks on a
+ * name rename. */
 static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutliner *self) {
   g_autoptr(GtkTreePath) path = NULL;
   GtkTreeViewColumn *column;
-  if (event->type != GDK_BUTTON_PRESS ||
-      !gtk_tree_view_get_path_at_pos(GTK_TREE_VIEW(tree), (int)event->x, (int)event->y, &path, &column, NULL, NULL))
+  if (!gtk_tree_view_get_path_at_pos(GTK_TREE_VIEW(tree), (int)event->x, (int)event->y, &path, &column, NULL, NULL))
     return GDK_EVENT_PROPAGATE;
+  if (event->type == GDK_2BUTTON_PRESS && event->button == GDK_BUTTON_PRIMARY && column == self->column) {
+    spore_outliner_rename(self);
+    return GDK_EVENT_STOP;
+  }
+  if (event->type != GDK_BUTTON_PRESS) return GDK_EVENT_PROPAGATE;
   if (event->button == GDK_BUTTON_SECONDARY) {
     gtk_widget_grab_focus(tree);
     spore_outliner_popup(self, (const GdkEvent *)event, path);

@@ -118,9 +118,9 @@ typedef struct SporeRenderOptions {
 } SporeRenderOptions;
 /* A software driver compiles a program when it first draws with it, for a hundred times as long as it draws: makes
  * those ready that pictures without antialias are drawn with. Another driver has nothing to gain. */
+gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error);
 /* Triangles of the surfaces that are shown, and how many of them a coarse picture draws. */
 void spore_renderer_count_triangles(const SporeRenderer *renderer, gsize *whole, gsize *coarse);
-gboolean spore_renderer_warm(SporeRenderer *renderer, GError **error);
 /* Begins a picture, which the driver draws while the caller goes on. What was begun before and not read is forgotten.
  */
 gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
