@@ -297,11 +297,14 @@ class Editor:
 
     def focus(self, title=None):
         """Gives the keyboard to the newest window: there is no window manager here to do so."""
-        ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], capture_output=True,
-                             text=True).stdout.split()
-        subprocess.run(["xdotool", "windowfocus", "--sync", ids[-1]], stderr=subprocess.DEVNULL)
         active = self.atspi.StateType.ACTIVE
-        wait(lambda: any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog|file chooser")), "a window to be active")
+
+        def focused():  # the newest one may be about to close
+            ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], capture_output=True,
+                                 text=True).stdout.split()
+            subprocess.run(["xdotool", "windowfocus", ids[-1]], stderr=subprocess.DEVNULL)
+            return any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog|file chooser"))
+        wait(focused, "a window to be active")
 
     def keys(self, *keys):
         subprocess.run(["xdotool", "key", "--clearmodifiers", *keys], check=True)
