@@ -2628,7 +2628,8 @@ def a_plane_opens_the_view():
     with start(two_balls("opened")) as editor:
         left, right, above = on_balls(editor)
         assert not editor.look("slider", "^Place of the cut plane$")
-        whole = picture(editor)
+        editor.mouse("mousemove", 5, 5)  # what lies under the cursor is lit
+        whole = ui.wait(lambda: (lambda one, next_one: one == next_one and one)(picture(editor), picture(editor)), "a picture that stays")
         editor.press(editor.find("toggle button", "^Look inside$"))
         item = editor.find("menu item|push button|check box|radio button", "^Plane across Z$")
         editor.press(item)
@@ -2651,6 +2652,7 @@ def a_plane_opens_the_view():
         ui.wait(lambda: editor.enabled("delete"), "the other side to be hidden")
         editor.act("select", "s", "solver")
         editor.act("cut", "s", "none")
+        editor.mouse("mousemove", 5, 5)
         ui.wait(lambda: picture(editor) == whole, "the plane to go")
         assert not editor.look("slider", "^Place of the cut plane$")
 
@@ -3752,6 +3754,7 @@ def what_the_method_takes_is_shown():
         return found and found[1]
 
     with start(path) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
         editor.act("select", "s", "bodies/ball")
         ui.wait(lambda: figure(editor) == planned(path), "the figure that plan says")
         editor.act("set-property", "(sss)", ("solver", "time_step", "0.001"))
