@@ -9,7 +9,7 @@ enum {
   COLUMN_NAME,
   COLUMN_BADGE,
   COLUMN_HINT /* markup */,
-  COLUMN_EDITABLE,
+  COLUMN_NAMED,
   COLUMN_WEIGHT,
   COLUMN_KIND,
   COLUMN_EYE, /* icon; NULL: nothing that a view could hide */

@@ -45,13 +45,13 @@ static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *obj
   g_autofree char *hint = g_markup_printf_escaped("%s%s%s", _(spore_object_type(object)->label), problem ? "\n" : "",
                                                   problem ? problem : "");
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
-                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
+                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_NAMED, TRUE,
                                     COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), COLUMN_EYE,
                                     eye_of(self, object), COLUMN_LOCK, lock_of(self, object), -1);
 }
 
 static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {
-  gtk_tree_store_insert_with_values(self->store, group, NULL, -1, COLUMN_ID, id, COLUMN_NAME, title, COLUMN_EDITABLE,
+  gtk_tree_store_insert_with_values(self->store, group, NULL, -1, COLUMN_ID, id, COLUMN_NAME, title, COLUMN_NAMED,
                                     FALSE, COLUMN_WEIGHT, PANGO_WEIGHT_BOLD, -1);
 }
 
@@ -78,7 +78,7 @@ static GtkTreeIter row_above(SporeOutliner *self, GtkTreeIter *group, const Spor
   if (!folder) return *group;
   if (known) return *known;
   gtk_tree_store_insert_with_values(self->store, &row, group, -1, COLUMN_ID, 0, COLUMN_NAME, folder, COLUMN_HINT,
-                                    _("Folder"), COLUMN_EDITABLE, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND,
+                                    _("Folder"), COLUMN_NAMED, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND,
                                     _("Folder"), -1);
   g_hash_table_insert(folders, g_strdup(folder), gtk_tree_iter_copy(&row));
   return row;
