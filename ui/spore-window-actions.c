@@ -95,6 +95,16 @@ static void act_place_region(GSimpleAction *action, GVariant *parameter, gpointe
   spore_window_show_hint(self);
 }
 
+/* path: of a region, or of what holds regions. */
+static void act_paint_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  if (!body || !spore_window_may_edit(self)) return;
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("edit"));
+  spore_viewport_begin_brush(SPORE_VIEWPORT(self->viewport), body, g_variant_get_string(parameter, NULL));
+  spore_window_show_hint(self);
+}
+
 static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
@@ -421,6 +431,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"use-preset", act_use_preset, "s"},
       {"add-region", act_add_region, "s"},
       {"place-region", act_place_region, "s"},
+      {"paint-region", act_paint_region, "s"},
       {"remove-region", act_remove_region, "s"},
       {"patient", NULL, "s", "''", change_patient},
       {"play", act_play},

@@ -217,6 +217,9 @@ static const char *hint_for(SporeWindow *self) {
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
     return _("Import a mesh to begin, or open the demo");
   g_autoptr(GVariant) tool = g_action_group_get_action_state(G_ACTION_GROUP(self), "tool");
+  if (spore_viewport_has_brush(SPORE_VIEWPORT(self->viewport)))
+    return _("Drag over the organ to paint the region, with Ctrl to erase; the wheel, + and − size the brush; Insert "
+             "paints in the middle of the view; Escape ends");
   if (spore_viewport_edits_regions(SPORE_VIEWPORT(self->viewport)))
     return _("Click puts the region there; its middle and its rim have a handle to drag; N and P choose, Insert adds");
   gboolean edits = g_str_equal(g_variant_get_string(tool, NULL), "edit");

@@ -19,9 +19,9 @@
  *               unset-property [s path, s name], set-model [s element], use-preset [s name],
  *               add-instrument [s kind of the library] (its places are picked), lead [s body; state: the instrument
  *               that is led], lead-next, add-fluid [s kind of the library] (its place is picked), add-pin,
- *               add-region [s path of what holds it], place-region [s path] (in the view), remove-region [s path],
- *               add-level [s "coarse" or "medium"] (to the selected body), remove-level [s path],
- *               add-link [s element], tie-link (the selected one), pick-back, pick-done,
+ *               add-region [s path of what holds it], place-region [s path] (in the view), paint-region [s path of a
+ * region, or of what holds them] (likewise), remove-region [s path], add-level [s "coarse" or "medium"] (to the
+ * selected body), remove-level [s path], add-link [s element], tie-link (the selected one), pick-back, pick-done,
  *               patient [s position; state, "": none], gizmo [s "none", "move", "turn" or "scale"; state] (of what is
  *               selected), align [s "x-least", "y-middle", "z-greatest" or the like] (the others with the first),
  *               mirror [s "x-scene", "y-own" or the like] (a copy of the selected body, in the middle of either),

@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "app/cli/edit_paint.h"
 #include "app/cli/edit_place.h"
 #include "app/cli/scene.h"
 #include "core/author/addition.h"
@@ -24,7 +25,7 @@
 
 /* The options of the command line. */
 typedef struct Request {
-  char **delete, **delete_alone, **locate, **add, **soft, **level, **set, **hold, **fluid, **mirror, **copy,
+  char **delete, **delete_alone, **locate, **add, **soft, **level, **set, **paint, **hold, **fluid, **mirror, **copy,
       **instrument, **port, **texture, *patient, *output;
   SporeCliPlacing placing;
   char *keep_pose; /* seconds; NULL: none is kept */
@@ -374,6 +375,8 @@ static gboolean apply(SporeCli *cli, SporeDocument *document, const Request *req
   if (request->soft && !make_soft(cli, document, request->soft, done, error)) return FALSE;
   for (char **text = request->level; text && *text; text++)
     if (!add_level(cli, document, *text, changed, error)) return FALSE;
+  for (char **text = request->paint; text && *text; text++)
+    if (!spore_cli_paint(document, *text, changed, error)) return FALSE;
   for (char **setting = request->set; setting && *setting; setting++)
     if (!set(document, *setting, changed, error)) return FALSE;
   if (request->patient && !spore_edit_lay_patient(document, request->patient, error)) return FALSE;
@@ -482,6 +485,11 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        "BODY=LEVEL"},
       {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &request.set,
        N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
+      {"paint", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.paint,
+       N_("Paint a region with one dab more, or a new one, before anything is set, m: "
+          "bodies/liver/regions/scar=0,0.02,0,0.005; likewise where "
+          "what is generated is to be finer: assets/liver_tetrahedra/rim=0,0.02,0,0.005 (may be repeated)"),
+       "REGION=X,Y,Z,RADIUS"},
       {"patient", 0, 0, G_OPTION_ARG_STRING, &request.patient,
        N_("Turn gravity as it pulls on a patient who lies so: supine, prone, left_lateral, right_lateral, "
           "trendelenburg (head 15 degrees down), reverse_trendelenburg, upright; in the axes that RAS and LPS files "
@@ -554,16 +562,15 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   gboolean any = request.delete || request.delete_alone || request.locate || request.add || request.soft ||
-                 request.level || request.set || request.patient || request.hold || request.instrument ||
-                 request.fluid || request.mirror || request.copy || request.port || request.texture ||
-                 request.placing.move || request.placing.turn || request.placing.scale || request.placing.align ||
-                 request.probe || request.fix || request.forget_pose || request.keep_pose;
+                 request.level || request.set || request.paint || request.patient || request.hold ||
+                 request.instrument || request.fluid || request.mirror || request.copy || request.port ||
+                 request.texture || request.placing.move || request.placing.turn || request.placing.scale ||
+                 request.placing.align || request.probe || request.fix || request.forget_pose || request.keep_pose;
   if (status == SPORE_EXIT_DONE && !any)
     status = spore_cli_usage(
         _("spore edit: nothing is asked for; expected --delete, --delete-alone, --locate, --add, --soft, --level, "
-          "--set, --patient, "
-          "--hold, "
-          "--instrument, --texture, --mirror, --copy, --fluid, --port, --move, --turn, --scale, --align, --probe, "
+          "--set, --paint, --patient, --hold, --instrument, --texture, --mirror, --copy, --fluid, --port, --move, "
+          "--turn, --scale, --align, --probe, "
           "--fix, --forget-pose or --keep-pose; give one of them"));
   if (status == SPORE_EXIT_DONE)
     status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
@@ -575,6 +582,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
   g_strfreev(request.soft);
   g_strfreev(request.level);
   g_strfreev(request.set);
+  g_strfreev(request.paint);
   g_strfreev(request.hold);
   g_strfreev(request.fluid);
   g_strfreev(request.mirror);

@@ -35,10 +35,13 @@ static SporeObject *choose_body(SporeDocument *document, const char *file, const
 static gboolean add_regions(SporeSceneBody *scene, const GArray *regions, GError **error) {
   if (scene->region_count + regions->len > SPORE_GENERATE_REGIONS)
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--region",
-                             _("with those of the scene these are more than %d regions; give fewer"),
+                             _("with those of the scene these are more than %d balls; give fewer"),
                              SPORE_GENERATE_REGIONS);
-  for (guint i = 0; i < regions->len; i++)
-    scene->regions[scene->region_count++] = g_array_index(regions, SporeGenerateRegion, i);
+  gsize own = scene->region_count ? scene->regions[scene->region_count - 1].region + 1 : 0;
+  for (guint i = 0; i < regions->len; i++) {
+    scene->regions[scene->region_count] = g_array_index(regions, SporeGenerateRegion, i);
+    scene->regions[scene->region_count++].region = own + i;
+  }
   return TRUE;
 }
 

@@ -92,7 +92,7 @@ static gboolean take_region(const char *option, const char *text, gpointer data,
   const SporeElement *element = region_of(parsing->options->type);
   g_auto(GStrv) words = g_strsplit(text, ",", -1);
   SporeValue value = {0};
-  SporeGenerateRegion region;
+  SporeGenerateRegion region = {.region = parsing->options->regions->len};
   if (g_strv_length(words) != 5) {
     g_autofree char *last = g_ascii_strup(element->parameters[element->count - 1].name, -1);
     g_set_error(error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE,

@@ -98,18 +98,24 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
   return spore_error_propagate(&fault, error);
 }
 
+static gboolean is_touched(const SporeGenerateRegion *ball, const SporeSphereSet *set) {
+  for (gsize s = 0; s < set->count; s++)
+    if (spore_vec3_distance(spore_vec3_load(set->spheres + 4 * s), spore_vec3_load(ball->centre)) <
+        set->spheres[4 * s + 3] + ball->radius)
+      return TRUE;
+  return FALSE;
+}
+
 /* Reports regions that no sphere touches: these regions lie off the organ. */
 static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, const SporeSphereSet *set) {
   spore_cli_open_array(cli, "regions_missed");
-  for (gsize i = 0; i < options->region_count; i++) {
+  for (gsize i = 0, end; i < options->region_count; i = end) {
     const SporeGenerateRegion *region = &options->regions[i];
-    gsize s = 0;
-    while (s < set->count &&
-           !(spore_vec3_distance(spore_vec3_load(set->spheres + 4 * s), spore_vec3_load(region->centre)) <
-             set->spheres[4 * s + 3] + region->radius))
-      s++;
-    if (s < set->count) continue;
-    spore_cli_count(cli, NULL, (gint64)i);
+    gboolean touched = FALSE;
+    for (end = i; end < options->region_count && options->regions[end].region == region->region; end++)
+      touched = touched || is_touched(&options->regions[end], set);
+    if (touched) continue;
+    spore_cli_count(cli, NULL, (gint64)region->region);
     spore_cli_say(cli,
                   _("The region about %g,%g,%g of %g m lies off the organ and has no effect; give its place in metres "
                     "and SPORE's axes, as spore import says them.\n"),

@@ -132,8 +132,8 @@ SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *b
                                          GError **error);
 /* Element of the regions that this kind of object holds: "region" of `regions`; NULL: it holds none. */
 const char *spore_region_element(const SporeObjectType *holder);
-/* Collects the regions of an asset (NULL: of none). regions has room for SPORE_GENERATE_REGIONS. FALSE with an error:
- * the asset has more. */
+/* Collects the balls of the regions of an asset (NULL: of none). regions has room for SPORE_GENERATE_REGIONS. FALSE
+ * with an error: the asset has more. */
 gboolean spore_edit_generator_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count,
                                       GError **error);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/author/edits.h"
+#include "core/scene/region.h"
 
 SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *body, SporeObject *target,
                                          GError **error) {
@@ -18,30 +19,39 @@ SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *b
 const char *spore_region_element(const SporeObjectType *holder) {
   for (guint i = 0; i < holder->children->len; i++) {
     const SporeObjectType *child = g_ptr_array_index(holder->children, i);
-    if (spore_parameter_find(child->table, "centre") >= 0 && spore_parameter_find(child->table, "radius") >= 0)
+    if (spore_parameter_find(child->table, "name") >= 0 && spore_parameter_find(child->table, "centre") >= 0 &&
+        spore_parameter_find(child->table, "radius") >= 0)
       return child->element;
   }
   return NULL;
 }
 
-/* Reads a region. The last of its own parameters is its setting (density, size). */
-static void read_region(const SporeObject *object, SporeGenerateRegion *region) {
-  const SporeParameterTable *table = spore_object_type(object)->table;
-  const SporeValue *centre = spore_object_value(object, (guint)spore_parameter_find(table, "centre"));
-  memcpy(region->centre, centre->number, sizeof region->centre);
-  region->radius = spore_object_number(object, "radius");
-  region->value = spore_object_value(object, (guint)table->count - 1)->number[0];
+/* Reads the balls of a region. The last of its own parameters is its setting (density, size). */
+static void read_region(const SporeObject *object, gsize index, SporeGenerateRegion *regions) {
+  guint count = spore_region_ball_count(object);
+  g_autofree double *balls = g_new(double, 4 * count);
+  guint setting = (guint)spore_object_type(object)->table->count - 1;
+  spore_region_read_balls(object, balls);
+  for (guint i = 0; i < count; i++) {
+    regions[i] = (SporeGenerateRegion){
+        .radius = balls[4 * i + 3], .value = spore_object_value(object, setting)->number[0], .region = index};
+    memcpy(regions[i].centre, balls + 4 * i, sizeof regions[i].centre);
+  }
 }
 
 gboolean spore_edit_generator_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count,
                                       GError **error) {
   *count = 0;
   for (guint i = 0; asset && i < spore_object_child_count(asset); i++) {
-    if (*count == SPORE_GENERATE_REGIONS)
+    const SporeObject *region = spore_object_child(asset, i);
+    guint balls = spore_region_ball_count(region);
+    if (balls > SPORE_GENERATE_REGIONS - *count)
       return spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(asset),
-                               _("it has more than %d regions; a generator takes no more; delete some"),
+                               _("its regions are more than %d balls, dabs of the brush included; a generator takes no "
+                                 "more; delete some, or paint with a wider brush"),
                                SPORE_GENERATE_REGIONS);
-    read_region(spore_object_child(asset, i), &regions[(*count)++]);
+    read_region(region, i, regions + *count);
+    *count += balls;
   }
   return TRUE;
 }

@@ -101,7 +101,7 @@ static const SporeElement elements[] = {
     {"spheres", N_("Spheres"), N_("A set of spheres that fills a shape, for collision."),
      TABLE(spheres_parameters, SporeSpheresFields), .children = CHILDREN("sphere_region")},
     {"sphere_region", N_("Region"), N_("A ball in which the generated spheres lie denser, or less so."),
-     TABLE(sphere_region_parameters, SporeSphereRegionFields)},
+     TABLE(sphere_region_parameters, SporeSphereRegionFields), .children = CHILDREN("dab")},
     {NULL},
 };
 

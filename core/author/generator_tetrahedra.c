@@ -138,7 +138,7 @@ static const SporeElement elements[] = {
     {"tetrahedra", N_("Tetrahedra"), N_("A volume cut into tetrahedra."),
      TABLE(tetrahedra_parameters, SporeTetrahedraFields), .children = CHILDREN("cell_region")},
     {"cell_region", N_("Region"), N_("A ball in which the generated tetrahedra are smaller."),
-     TABLE(cell_region_parameters, SporeCellRegionFields)},
+     TABLE(cell_region_parameters, SporeCellRegionFields), .children = CHILDREN("dab")},
     {NULL},
 };
 

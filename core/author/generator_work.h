@@ -61,7 +61,7 @@ struct SporeGenerateWork {
   guint32 body; /* object id */
   char *source; /* name of the mesh asset */
   char *source_hash;
-  gsize region_count, own_region_count; /* own: of the asset; the others are new to it */
+  gsize region_count, own_region_count; /* balls; own: of the asset; the others are new to it */
   SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
   SporeTriangleMesh mesh;
   SporeTetrahedralMesh cells;              /* of the organ, for spheres; empty: it has none */

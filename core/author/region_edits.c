@@ -8,6 +8,8 @@
 #include "core/mesh/common.h"
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
+#include "core/body/region.h"
+#include "core/scene/region.h"
 
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4
@@ -94,28 +96,62 @@ static gboolean set_size(SporeDocument *document, SporeObject *region, GError **
   return !(half > 0) || set_numbers(document, region, "size", &half, 1, error);
 }
 
-static SporeObject *add_region(SporeDocument *document, SporeObject *body, const char *path, GError **error) {
-  double centre[3], radius;
-  SporeVec3 middle;
+/* name: NULL: a free one. */
+static SporeObject *insert_region(SporeDocument *document, const char *path, const char *name, GError **error) {
   SporeObject *holder = spore_edit_object_or_unit(document, path, error);
   if (!holder) return NULL;
   const char *element = spore_region_element(spore_object_type(holder));
-  if (!element) {
-    spore_error_raise(error, SPORE_ERROR_INPUT, path,
-                      _("it has no regions; expected the regions of a body, spheres or tetrahedra; name one of those"));
-    return NULL;
-  }
-  if (!find_middle(document, body, holder, &middle, &radius, error)) return NULL;
+  if (element) return spore_document_insert(document, holder, element, name ? name : "region", G_MAXUINT, error);
+  spore_error_raise(error, SPORE_ERROR_INPUT, path,
+                    _("it has no regions; expected the regions of a body, spheres or tetrahedra; name one of those"));
+  return NULL;
+}
+
+static SporeObject *add_region(SporeDocument *document, SporeObject *body, const char *path, GError **error) {
+  double centre[3], radius;
+  SporeVec3 middle;
+  SporeObject *region = insert_region(document, path, NULL, error);
+  if (!region || !find_middle(document, body, spore_object_parent(region), &middle, &radius, error)) return NULL;
   spore_vec3_store(centre, middle);
-  SporeObject *region = spore_document_insert(document, holder, element, "region", G_MAXUINT, error);
-  gboolean done = region && set_ball(document, region, centre, radius, error) && set_size(document, region, error);
-  return done ? region : NULL;
+  return set_ball(document, region, centre, radius, error) && set_size(document, region, error) ? region : NULL;
 }
 
 SporeObject *spore_edit_add_region(SporeDocument *document, SporeObject *body, const char *holder, GError **error) {
   spore_document_begin(document, _("Add region"));
   SporeObject *region = add_region(document, body, holder, error);
   return spore_edit_finish(document, region != NULL) ? region : NULL;
+}
+
+/* Painting. */
+
+static gboolean remove_dabs(SporeDocument *document, SporeObject *region, GError **error) {
+  for (guint i = spore_object_child_count(region); i-- > 0;)
+    if (!spore_document_remove(document, spore_object_child(region, i), error)) return FALSE;
+  return TRUE;
+}
+
+static gboolean set_balls(SporeDocument *document, SporeObject *region, const double *balls, gsize count,
+                          GError **error) {
+  if (!remove_dabs(document, region, error) || !set_ball(document, region, balls, balls[3], error)) return FALSE;
+  for (gsize i = 1; i < count; i++) {
+    SporeObject *dab = spore_document_insert(document, region, "dab", NULL, G_MAXUINT, error);
+    if (!dab || !set_ball(document, dab, balls + 4 * i, balls[4 * i + 3], error)) return FALSE;
+  }
+  return spore_region_check_balls(region, error);
+}
+
+gboolean spore_edit_paint_region(SporeDocument *document, SporeObject *region, const double *balls, gsize count,
+                                 GError **error) {
+  spore_document_begin(document, _("Paint region"));
+  return spore_edit_finish(document, set_balls(document, region, balls, count, error));
+}
+
+SporeObject *spore_edit_add_painted_region(SporeDocument *document, const char *holder, const char *name,
+                                           const double *balls, gsize count, GError **error) {
+  spore_document_begin(document, _("Paint region"));
+  SporeObject *region = insert_region(document, holder, name, error);
+  gboolean done = region && set_balls(document, region, balls, count, error) && set_size(document, region, error);
+  return spore_edit_finish(document, done) ? region : NULL;
 }
 
 static gboolean remove_region(SporeDocument *document, SporeObject *region, GError **error) {
@@ -129,6 +165,11 @@ gboolean spore_region_is(const SporeObject *object) {
   SporeObject *holder = spore_object_parent(object);
   const char *element = holder ? spore_region_element(spore_object_type(holder)) : NULL;
   return element && strcmp(spore_object_type(object)->element, element) == 0;
+}
+
+gboolean spore_region_is_dab(const SporeObject *object) {
+  SporeObject *holder = spore_object_parent(object);
+  return holder && spore_region_is(holder);
 }
 
 SporeObject *spore_edit_find_region(SporeDocument *document, const char *path, GError **error) {
@@ -151,12 +192,6 @@ gboolean spore_edit_place_region(SporeDocument *document, SporeObject *region, c
   return spore_edit_finish(document, set_ball(document, region, centre, radius, error));
 }
 
-void spore_region_ball(const SporeObject *region, double ball[4]) {
-  int centre = spore_parameter_find(spore_object_type(region)->table, "centre");
-  memcpy(ball, spore_object_value(region, (guint)centre)->number, 3 * sizeof *ball);
-  ball[3] = spore_object_number(region, "radius");
-}
-
 static void add_ring(double *segments, SporeVec3 centre, double radius, int axis) {
   for (int i = 0; i < 2 * RING_SEGMENTS; i++) {
     double angle = 2 * G_PI * ((i + 1) / 2) / RING_SEGMENTS, point[3] = {centre.x, centre.y, centre.z};
@@ -173,9 +208,36 @@ double *spore_region_rings(const SporeObject *holder, gsize *count) {
   double *segments = g_new(double, 6 * *count);
   for (guint i = 0; i < regions; i++) {
     double ball[4];
-    spore_region_ball(spore_object_child(holder, i), ball);
+    spore_region_read_ball(spore_object_child(holder, i), ball);
     for (int axis = 0; axis < 3; axis++)
       add_ring(segments + 6 * RING_SEGMENTS * (3 * i + (guint)axis), spore_vec3_load(ball), ball[3], axis);
   }
   return segments;
+}
+
+/* Facts. */
+
+/* Tetrahedra of the body that the region holds. FALSE: it is not a region of a body that has some. */
+static gboolean count_cells(SporeDocument *document, const SporeObject *region, gsize *held, gsize *all) {
+  SporeObject *body = spore_object_parent(spore_object_parent(region));
+  gboolean of_body = body && g_str_equal(spore_object_type(body)->element, "body");
+  SporeObject *asset = of_body ? spore_edit_body_tetrahedra(document, body) : NULL;
+  const SporeTetrahedralMesh *cells = asset ? spore_document_tetrahedra(document, asset, NULL) : NULL;
+  if (!cells) return FALSE;
+  guint count = spore_region_ball_count(region);
+  g_autofree double *balls = g_new(double, 4 * count), *middles = middles_of(cells);
+  spore_region_read_balls(region, balls);
+  *held = 0, *all = cells->tetrahedron_count;
+  for (gsize i = 0; i < *all; i++) *held += spore_balls_hold(balls, count, spore_vec3_load(middles + 3 * i));
+  return TRUE;
+}
+
+char *spore_region_facts(SporeDocument *document, const SporeObject *region) {
+  gsize held, all;
+  guint dabs = spore_object_child_count(region);
+  g_autofree char *painted =
+      dabs ? g_strdup_printf(ngettext("Painted with %u dab.", "Painted with %u dabs.", dabs), dabs) : NULL;
+  if (!count_cells(document, region, &held, &all)) return g_steal_pointer(&painted);
+  g_autofree char *holds = g_strdup_printf(_("Holds %zu of %zu tetrahedra."), held, all);
+  return painted ? g_strdup_printf("%s %s", painted, holds) : g_steal_pointer(&holds);
 }

@@ -78,8 +78,8 @@ TABLE(static, spheres, SporeSphereSet, SPHERES)
 TABLE(static, curve, SporeCurve, CURVE)
 
 #define REGION(X, T)                                                                                                   \
-  X(T, centre, REALS, DOUBLES(SporeVec3))                                                                              \
-  X(T, radius, REAL)                                                                                                   \
+  X(T, ball_count, SIZE)                                                                                               \
+  X(T, balls, POINTER, MANY(T, ball_count, 4, REAL))                                                                   \
   X(T, stiffness, REAL)                                                                                                \
   X(T, density, REAL)                                                                                                  \
   X(T, elements, SKIPPED)

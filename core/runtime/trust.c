@@ -45,8 +45,8 @@ static bool trust_regions(const SporeRegions *regions, SporeError *error) {
   if (regions->count > 0 && !regions->regions) return refuse(error, _("regions are missing"));
   for (size_t i = 0; i < regions->count; i++) {
     const SporeRegion *region = &regions->regions[i];
-    if (!(region->radius > 0 && region->stiffness > 0 && region->density > 0))
-      return refuse(error, _("a region's radius or factors are not above 0"));
+    if (region->ball_count > 0 && !region->balls) return refuse(error, _("the balls of a region are missing"));
+    if (!(region->stiffness > 0 && region->density > 0)) return refuse(error, _("a region's factors are not above 0"));
   }
   return true;
 }

@@ -7,6 +7,7 @@
 #include "core/scene/fidelity.h"
 #include "core/scene/kept_pose.h"
 #include "core/scene/level_settings.h"
+#include "core/scene/region.h"
 #include "core/scene/sheet_corners.h"
 
 static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
@@ -107,11 +108,14 @@ static gboolean scale_by_tissue(SporeCompiler *compiler, const SporeObject *regi
 static gboolean describe_region(SporeCompiler *compiler, const SporeObject *object, const SporeObject *model,
                                 SporeRegion *region) {
   SporeRegionFields fields;
+  if (!spore_region_check_balls(object, compiler->error)) return FALSE;
+  guint count = spore_region_ball_count(object);
   spore_object_fields(object, &fields);
-  *region = (SporeRegion){.centre = spore_vec3_load(fields.centre),
-                          .radius = fields.radius,
+  *region = (SporeRegion){.ball_count = count,
+                          .balls = spore_compiler_keep(compiler, 4 * count * sizeof(double)),
                           .stiffness = fields.stiffness_scale,
                           .density = fields.density_scale};
+  spore_region_read_balls(object, region->balls);
   const SporeTissue *tissue = fields.material > 0 ? &spore_tissues[fields.material - 1] : NULL;
   return !tissue || (scale_by_tissue(compiler, object, model, tissue, "young_modulus", &region->stiffness) &&
                      scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
@@ -142,9 +146,12 @@ static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, 
     if (regions->regions[i].elements == 0)
       return spore_compiler_refuse(
           compiler, region,
-          _("the region \"%s\" holds the middle of no element; expected one within %g m of its centre, in the "
-            "body's frame; move it or make it larger"),
-          spore_object_name(region), regions->regions[i].radius);
+          regions->regions[i].ball_count > 1
+              ? _("the painted region \"%s\" holds the middle of no element; expected one within %g m of its centre or "
+                  "in one of its dabs, in the body's frame; paint it with a wider brush")
+              : _("the region \"%s\" holds the middle of no element; expected one within %g m of its centre, in the "
+                  "body's frame; move it or make it larger"),
+          spore_object_name(region), regions->regions[i].balls[3]);
   }
   return TRUE;
 }

@@ -30,12 +30,12 @@ bool spore_format_version_check(const char *version, SporeError *error);
  * radius density) tetrahedra(name file source method cells size tolerance curvature fill gap), the same >
  * cell_region(name centre radius size) bodies > body(name role position rotation velocity spin) mechanical(geometry
  * integrator substeps material) > one model element (its own table) regions > region(name centre radius stiffness_scale
- * density_scale material) collision(spheres + spore_contact_parameters) visual(mesh colour wetness opacity texture
- * texture_places) fidelity(mode level automatic ...) > coarse(geometry settings) medium(geometry settings) links  >
- * pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length) effects tools
- * > probe(name body device) | camera(name position target field_of_view) camera(name position target field_of_view)
- * devices > mouse(name) | track(name file) exercise(task time_limit order) > steps (core/exercise/event.h) and metrics
- * (core/exercise/metric.h), in any order
+ * density_scale material) > dab(centre radius), which sphere_region and cell_region hold, too; collision(spheres +
+ * spore_contact_parameters) visual(mesh colour wetness opacity texture texture_places) fidelity(mode level automatic
+ * ...) > coarse(geometry settings) medium(geometry settings) links  > pin(name body point radius) | spring(name body_a
+ * body_b point_a point_b stiffness damping rest_length) effects tools > probe(name body device) | camera(name position
+ * target field_of_view) camera(name position target field_of_view) devices > mouse(name) | track(name file)
+ * exercise(task time_limit order) > steps (core/exercise/event.h) and metrics (core/exercise/metric.h), in any order
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).

@@ -167,6 +167,26 @@ static const SporeParameter region_parameters[] = {
      .doc = N_("Tissue whose Young's modulus and density the region has, before the factors; none: the body's.")},
 };
 
+static const SporeParameter dab_parameters[] = {
+    {.name = "centre",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeDabFields, centre),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Middle of the dab at rest, in the frame that the region is in.")},
+    {.name = "radius",
+     .type = SPORE_REAL,
+     .unit = "m",
+     1e-6,
+     POSITION_M,
+     .initial = {0.01},
+     FIELD(SporeDabFields, radius),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("What is nearer than this to the middle of the dab is of the region.")},
+};
+
 static const SporeParameter collision_parameters[] = {
     {.name = "spheres",
      .type = SPORE_REFERENCE,
@@ -347,7 +367,11 @@ const SporeElement spore_body_elements[] = {
     {"regions", N_("Regions"), N_("Parts of the body that are of another stiffness or density."),
      .children = CHILDREN("region")},
     {"region", N_("Region"), N_("A part of a solid: a stiff knot, a soft patch, another tissue."),
-     TABLE(region_parameters, SporeRegionFields)},
+     TABLE(region_parameters, SporeRegionFields), .children = CHILDREN("dab")},
+    {"dab", N_("Dab"),
+     N_("One dab of the brush that a region is painted with: the region holds what lies in its own ball "
+        "or in a dab."),
+     TABLE(dab_parameters, SporeDabFields)},
     {"collision", N_("Collision unit"), N_("How the body meets others."),
      TABLE(collision_parameters, SporeCollisionFields), .extra = &spore_contact_parameters,
      .extra_offset = offsetof(SporeCollisionFields, contact)},

@@ -54,6 +54,10 @@ typedef struct SporeRegionFields {
   int material; /* of spore_material_names */
 } SporeRegionFields;
 
+typedef struct SporeDabFields {
+  double centre[3], radius;
+} SporeDabFields;
+
 typedef struct SporeCollisionFields {
   const char *spheres;
   SporeContactFields contact;

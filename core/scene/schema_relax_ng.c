@@ -110,9 +110,11 @@ static void append_element(GString *text, const SporeObjectType *type) {
   g_string_append(text, "  </element></define>\n");
 }
 
-static void append_tree(GString *text, const SporeObjectType *type) {
+/* An element that several others hold is defined once. */
+static void append_tree(GString *text, const SporeObjectType *type, GHashTable *defined) {
+  if (!g_hash_table_add(defined, (gpointer)type)) return;
   append_element(text, type);
-  for (guint i = 0; i < type->children->len; i++) append_tree(text, g_ptr_array_index(type->children, i));
+  for (guint i = 0; i < type->children->len; i++) append_tree(text, g_ptr_array_index(type->children, i), defined);
 }
 
 char *spore_schema_relax_ng(const SporeSchema *schema) {
@@ -122,7 +124,8 @@ char *spore_schema_relax_ng(const SporeSchema *schema) {
                                "         datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">\n");
   const SporeObjectType *root = spore_schema_root(schema);
   g_string_append_printf(text, "  <start><ref name=\"%s\"/></start>\n", root->element);
-  append_tree(text, root);
+  g_autoptr(GHashTable) defined = g_hash_table_new(NULL, NULL);
+  append_tree(text, root, defined);
   g_string_append(text, "</grammar>\n");
   return g_string_free(text, FALSE);
 }

@@ -12,7 +12,8 @@ static const char organs[] =
     "file=\"cube.mesh\"/><spheres name=\"balls\" file=\"away.spheres\"/></assets><bodies>"
     "<body name=\"ovary_left\" position=\"0.3 0.1 0\" rotation=\"0.2 0.4 0.6\" velocity=\"1 2 3\" spin=\"1 2 3\">"
     "<mechanical geometry=\"cells\"><corotational_tetrahedra young_modulus=\"4000\"/></mechanical>"
-    "<regions><region name=\"core\" centre=\"0.01 0.02 0.03\" radius=\"0.1\"/></regions>"
+    "<regions><region name=\"core\" centre=\"0.01 0.02 0.03\" radius=\"0.1\">"
+    "<dab centre=\"0.02 0 0\" radius=\"0.04\"/></region></regions>"
     "<collision spheres=\"balls\" group=\"1\"/><visual mesh=\"left_cube\" colour=\"0.1 0.2 0.3\"/></body>"
     "<body name=\"wall\" role=\"unmovable\" position=\"-0.5 0 0\"><visual mesh=\"left_cube\"/></body>"
     "<body name=\"probe\" role=\"active\"/></bodies><links>"
@@ -51,6 +52,7 @@ static void test_image(void) {
       g_assert_cmpfloat(spore_object_vector(copy, "spin").y, ==, -2);
       SporeObject *region = spore_object_child(spore_object_child_of(copy, "regions"), 0);
       g_assert_cmpfloat(spore_object_vector(region, "centre").x, ==, -0.01);
+      g_assert_cmpfloat(spore_object_vector(spore_object_child(region, 0), "centre").x, ==, -0.02);
     }
     g_assert_cmpfloat(spore_object_vector(spore_object_child_of(copy, "visual"), "colour").x, ==, 0.1);
     g_assert_cmpfloat(spore_object_number(spore_body_model_object(copy), "young_modulus"), ==, 4000);

@@ -14,7 +14,8 @@ static const char organs[] =
     "<spheres name=\"balls\" file=\"away.spheres\"/></assets><bodies>"
     "<body name=\"ovary\" position=\"0.3 0.1 0\" rotation=\"0.2 0.4 0.6\">"
     "<mechanical geometry=\"cells\"><corotational_tetrahedra young_modulus=\"4000\"/></mechanical>"
-    "<regions><region name=\"core\" centre=\"0.01 0.02 0.03\" radius=\"0.1\"/></regions>"
+    "<regions><region name=\"core\" centre=\"0.01 0.02 0.03\" radius=\"0.1\">"
+    "<dab centre=\"0.02 0 0\" radius=\"0.04\"/></region></regions>"
     "<collision spheres=\"balls\" group=\"1\"/><visual mesh=\"skin\" colour=\"0.1 0.2 0.3\"/></body>"
     "<body name=\"wall\" role=\"unmovable\" position=\"-0.5 0 0\"><visual mesh=\"skin\"/></body>"
     "<body name=\"probe\" role=\"active\"/></bodies><links>"
@@ -69,6 +70,8 @@ static void assert_scaled(const FixtureScene *scene, SporeVec3 middle, const Spo
   const SporeObject *region = spore_object_child(spore_object_child_of(named(scene, "body", "ovary"), "regions"), 0);
   assert_near(spore_object_vector(region, "centre"), spore_vec3(0.025, 0.05, 0.075));
   g_assert_cmpfloat_with_epsilon(spore_object_number(region, "radius"), 0.25, 1e-12);
+  assert_near(spore_object_vector(spore_object_child(region, 0), "centre"), spore_vec3(0.05, 0, 0));
+  g_assert_cmpfloat_with_epsilon(spore_object_number(spore_object_child(region, 0), "radius"), 0.1, 1e-12);
   g_assert_cmpfloat_with_epsilon(
       spore_object_number(spore_object_child(named(scene, "tetrahedra", "cells"), 0), "size"), 0.0075, 1e-12);
 }

@@ -29,7 +29,8 @@ typedef struct Block {
 /* A sphere around one end is three times as stiff, where `regions`. */
 static Block block_new(const SporeModelType *type, int variant, gboolean regions) {
   Block block = {.type = type, .fields = g_malloc0(type->parameters.size)};
-  SporeRegion region = {.centre = {0, 0.05, 0.05}, .radius = 0.1, .stiffness = 3, .density = 1};
+  double ball[4] = {0, 0.05, 0.05, 0.1};
+  SporeRegion region = {.ball_count = 1, .balls = ball, .stiffness = 3, .density = 1};
   SporeRegions parts = {1, &region};
   shape_block(&block.mesh, 3, 1, 1, spore_vec3(0.3, 0.1, 0.1));
   spore_parameters_set_initial(&type->parameters, block.fields);

@@ -237,6 +237,20 @@ def a_scene_is_authored_by_commands():
     assert added == ["links/cord", "links/cord-2", "bodies/egg/mechanical/rigid_body", "links/cord/body_a", "links/cord-2/body_a"], added
     assert report("run", scene.with_name("added.spore"), "--steps", "20")["dof"] <= 6, "a rigid body, pinned"
     assert not [d for d in report("check", scene)["diagnostics"] if d["severity"] == "error"]
+    painted, scar, rim = scene.with_name("painted.spore"), "bodies/egg/regions/scar", "assets/egg_tetrahedra/rim"
+    spore("edit", scene, "--paint", f"{scar}=0,0.03,0,0.01", "--paint", f"{scar}=0,0.03,0.001,0.01", "--paint", f"{scar}=0,0.025,0.01,0.01",
+          "--set", f"{scar}/stiffness_scale=20", "--paint", f"{rim}=0.03,0,0,0.008", "--paint", f"{rim}=0.03,0.007,0,0.008", "-o", painted)
+    tree = xml.etree.ElementTree.parse(painted).getroot()
+    region = tree.find("bodies/body[@name='egg']/regions/region")
+    assert region.get("radius") == "0.01" and [dab.get("centre") for dab in region] == ["0 0.025 0.01"], "a dab beside another adds nothing"
+    assert report("run", painted, "--steps", "20")["state_hash"] != report("run", scene, "--steps", "20")["state_hash"]
+    spore("tetrahedra", painted, "--body", "egg", "--cells", "400")
+    assert not [d for d in report("check", painted)["diagnostics"] if "stale" in d["message"]]
+    assert len(xml.etree.ElementTree.parse(painted).findall("assets/tetrahedra/cell_region/dab")) == 1
+    assert [loss for loss in report("export", "--format", "sofa", painted, "-o", WORK / "authored" / "sofa")["lost"] if "egg: its stiffer and softer regions" in loss]
+    refuses("edit", painted, "--paint", f"{scar}=0,0.03,0", says=[scar, "X,Y,Z,RADIUS"])
+    refuses("edit", painted, "--paint", "bodies/egg/visual=0,0.03,0,0.01", says=["bodies/egg/visual", "no such region"])
+    refuses("edit", painted, "--paint", "links/pin=0,0.03,0,0.01", says=["links", "has no regions"])
 
 
 @check

@@ -64,7 +64,7 @@ static size_t count_above(const SporeSphereSet *set) {
 static void test_region(void) {
   SporeTriangleMesh bar;
   SporeSpheresReport report;
-  SporeGenerateRegion region = {{0, 0, 0.1}, 0.1, 8};
+  SporeGenerateRegion region = {{0, 0, 0.1}, 0.1, 8, 0};
   SporeSpheresOptions options = {.count = 60, .seed = 1, .regions = &region, .region_count = 1};
   SporeSphereSet set;
   shape_box(&bar, (double[3]){-0.01, -0.01, -0.1}, (double[3]){0.01, 0.01, 0.1}, 4);

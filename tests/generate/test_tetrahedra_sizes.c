@@ -46,7 +46,7 @@ static gboolean in_region(SporeVec3 p) { return spore_vec3_distance(p, spore_vec
 
 /* Edges of 6 mm in a ball at the pole of another one of 20 mm; with the same number of cells, those elsewhere grow. */
 static void test_region(void) {
-  const SporeGenerateRegion region = {{0.05, 0, 0}, 0.02, 0.006};
+  const SporeGenerateRegion region = {{0.05, 0, 0}, 0.02, 0.006, 0};
   SporeTriangleMesh surface = {0}, same = {0};
   shape_ball(&surface, 0.05, 12);
   g_assert_true(spore_triangle_mesh_copy(&same, &surface, NULL));

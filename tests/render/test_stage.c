@@ -158,13 +158,20 @@ static void test_held_places(void) {
   g_assert_cmpuint(spore_stage_pick_hold(setting.stage, above, down, &point, &hold), ==, id_of(&setting, "ball"));
   g_assert_true(spore_stage_held(setting.stage, &hold, &now));
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(now, point), 0, 1e-12);
+  SporeVec3 before = {0};
+  g_assert_true(spore_stage_held_at_rest(setting.stage, &hold, &before));
+  const SporePose start = spore_body_pose(spore_document_by_id(setting.document, hold.body));
+  g_assert_cmpfloat(spore_vec3_distance(spore_pose_apply(start, before), point), <, 1e-12);
   check_falls_along(&setting, &hold, point);
+  g_assert_true(spore_stage_held_at_rest(setting.stage, &hold, &now));
+  g_assert_cmpfloat(spore_vec3_distance(now, before), ==, 0); /* the body has moved, and its rest has not */
   g_assert_true(spore_stage_surface(setting.stage, hold.body, &surface));
   g_assert_cmpuint(surface.vertex_count, ==, hold.count);
   hold.count++;
   g_assert_false(spore_stage_held(setting.stage, &hold, &now));
   hold.count--, hold.body = 0;
   g_assert_false(spore_stage_held(setting.stage, &hold, &now));
+  g_assert_false(spore_stage_held_at_rest(setting.stage, &hold, &now));
   setting_close(&setting);
 }
 

@@ -306,6 +306,20 @@ static const Mistake mistakes[] = {
            "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>\n<regions>"
            "<region name=\"knot\" centre=\"1 0 0\" radius=\"0.04\"/></regions>" BALL "</body></bodies>\n"),
      {"fault 7:10: the region \"knot\" holds the middle of no element"}},
+    {"region-painted",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>\n<regions>"
+           "<region name=\"scar\" centre=\"1 0 0\" radius=\"0.04\" stiffness_scale=\"20\">"
+           "<dab centre=\"0 0 0\" radius=\"0.04\"/></region></regions>" BALL "</body></bodies>\n"),
+     {NULL}},
+    {"region-painted-beside",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>\n<regions>"
+           "<region name=\"scar\" centre=\"1 0 0\" radius=\"0.04\"><dab centre=\"0 2 0\" radius=\"0.04\"/></region>"
+           "</regions>" BALL "</body></bodies>\n"),
+     {"fault 7:10: the painted region \"scar\" holds the middle of no element"}},
     {"region-of-net",
      BODIES(FLOOR "<body name=\"stone\">" STONE "\n<regions><region name=\"knot\" centre=\"0 0 0\"/></regions>" BALL
                   "</body>\n"),

@@ -22,7 +22,9 @@
 #include "ui/document/labels.h"
 #include "ui/document/mapping-report.h"
 #include "core/author/mesh_edits.h"
+#include "core/author/brush.h"
 #include "core/author/region_edits.h"
+#include "core/scene/region.h"
 #include "ui/document/recovery.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
@@ -256,6 +258,53 @@ static void use_tetrahedron(Fixture *fixture, SporeObject *body) {
   spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, NULL);
 }
 
+/* A dab that adds little is left out, one that covers others takes their place, and the brush takes away what it meets.
+ */
+static void test_brush(void) {
+  g_autoptr(GArray) balls = spore_brush_balls_new(NULL, 0);
+  g_assert_true(spore_brush_paint(balls, spore_vec3(0, 0, 0), 0.01));
+  g_assert_false(spore_brush_paint(balls, spore_vec3(0.004, 0, 0), 0.01));
+  g_assert_true(spore_brush_paint(balls, spore_vec3(0.006, 0, 0), 0.01));
+  g_assert_true(spore_brush_paint(balls, spore_vec3(0.1, 0, 0), 0.01));
+  g_assert_cmpuint(balls->len, ==, 3);
+  g_assert_true(spore_brush_paint(balls, spore_vec3(0.003, 0, 0), 0.02));
+  g_assert_cmpuint(balls->len, ==, 2); /* the wide one covers the first two */
+  g_assert_false(spore_brush_erase(balls, spore_vec3(0.05, 0, 0), 0.01));
+  g_assert_true(spore_brush_erase(balls, spore_vec3(0.095, 0, 0), 0.01));
+  g_assert_cmpuint(balls->len, ==, 1);
+  g_assert_cmpfloat(g_array_index(balls, double, 3), ==, 0.02);
+}
+
+/* What is painted is one step, of a new region and of one that is there; what it holds is counted once. */
+static void test_painted_region(Fixture *fixture, gconstpointer data) {
+  const double balls[] = {0, 0, 0, 0.02, 0.01, 0.01, 0.01, 0.005, 0.011, 0.01, 0.01, 0.005};
+  GError *error = NULL;
+  SporeObject *body = add_organ(fixture);
+  use_tetrahedron(fixture, body);
+  g_autofree char *before = text_of(fixture);
+  SporeObject *region =
+      spore_edit_add_painted_region(fixture->document, "bodies/my_organ/regions", "scar", balls, 3, &error);
+  g_assert_no_error(error);
+  g_assert_cmpuint(spore_region_ball_count(region), ==, 3);
+  g_autofree char *facts = spore_region_facts(fixture->document, region);
+  g_assert_cmpstr(facts, ==, "Painted with 2 dabs. Holds 1 of 1 tetrahedra.");
+  g_autofree char *text = text_of(fixture);
+  g_assert_nonnull(strstr(text, "<dab centre=\"0.011 0.01 0.01\" radius=\"0.005\"/>"));
+  g_assert_true(spore_edit_paint_region(fixture->document, region, balls, 1, &error));
+  g_autofree char *less = spore_region_facts(fixture->document, region);
+  g_assert_cmpstr(less, ==, "Holds 1 of 1 tetrahedra.");
+  spore_document_undo(fixture->document);
+  g_autofree char *again = text_of(fixture);
+  g_assert_cmpstr(again, ==, text);
+  assert_one_step(fixture, before);
+  g_autofree double *many = g_new0(double, 4 * (SPORE_REGION_BALLS + 1));
+  for (guint i = 0; i <= SPORE_REGION_BALLS; i++) many[4 * i + 3] = 0.01;
+  g_assert_null(spore_edit_add_painted_region(fixture->document, "bodies/my_organ/regions", NULL, many,
+                                              SPORE_REGION_BALLS + 1, &error));
+  g_assert_nonnull(strstr(error->message, "at most 1000"));
+  g_clear_error(&error);
+}
+
 /* A region of a body is one step, and its holder comes and goes with it; each has rings of its own. */
 static void test_regions(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
@@ -335,7 +384,7 @@ static void test_hand_edit_region(Fixture *fixture, gconstpointer data) {
       edit.points[7] = 0.02 * i;
       g_assert_true(spore_hand_edit_write_region(&edit, fixture->document, &error));
       double ball[4];
-      spore_region_ball(two, ball);
+      spore_region_read_ball(two, ball);
       g_assert_cmpfloat_with_epsilon(ball[0], 0.01 * i, 1e-12);
       g_assert_cmpfloat_with_epsilon(ball[3], 0.02 * i, 1e-12);
     }
@@ -885,6 +934,7 @@ int main(int argc, char **argv) {
       {"hand-edit-weights", test_hand_edit_weights},
       {"usual-model", test_usual_model},
       {"regions", test_regions},
+      {"painted-region", test_painted_region},
       {"regions-of-generated", test_regions_of_generated},
       {"mapping-report", test_mapping_report},
       {"set-model", test_set_model},
@@ -912,6 +962,7 @@ int main(int argc, char **argv) {
     g_autofree char *path = g_strconcat("/author/", tests[i].name, NULL);
     g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
   }
+  g_test_add_func("/author/brush", test_brush);
   g_test_add_func("/author/number-text", test_number_text);
   g_test_add_func("/author/angle-text", test_angle_text);
   g_test_add_func("/author/flow-text", test_flow_text);

@@ -76,7 +76,9 @@ static void clear(State *state) {
  * are pulled by E A e. Mass: of both halves. */
 static void check_two_springs(gconstpointer data) {
   const Case *one = data;
-  SporeRegion half = {{SIDE / 2 + 1000, SIDE / 2, SIDE / 2}, 1000, STIFFER, DENSER, 0};
+  /* A dab within the ball changes nothing: an element is of a region once. */
+  double balls[] = {SIDE / 2 + 1000, SIDE / 2, SIDE / 2, 1000, SIDE, SIDE / 2, SIDE / 2, 0.4 * SIDE};
+  SporeRegion half = {2, balls, STIFFER, DENSER, 0};
   SporeRegions regions = {1, &half};
   SporeModel *model = make(one, &regions);
   State state = place(model);
@@ -110,7 +112,8 @@ static void check_two_springs(gconstpointer data) {
 /* The matrix is the force's derivative, the force the energy's, in a region as elsewhere. */
 static void check_derivatives(gconstpointer data) {
   const Case *one = data;
-  SporeRegion parts[2] = {{{0, 0, 0}, 0.05, 7, 1, 0}, {{SIDE, SIDE, 0}, 0.03, 0.2, 2, 0}};
+  double balls[2][4] = {{0, 0, 0, 0.05}, {SIDE, SIDE, 0, 0.03}};
+  SporeRegion parts[2] = {{1, balls[0], 7, 1, 0}, {1, balls[1], 0.2, 2, 0}};
   SporeRegions regions = {2, parts};
   SporeModel *model = make(one, &regions);
   State state = place(model);

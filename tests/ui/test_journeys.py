@@ -1210,6 +1210,50 @@ def tetrahedra_as_asked_for():
 
 
 @check
+def a_region_is_painted():
+    """a brush paints a region on the organ, a stroke is one step; Ctrl erases, the wheel sizes the brush, Escape takes a stroke back and then ends; the organ shows what is painted, and the inspector counts the tetrahedra."""
+    with start() as editor:
+        make_solid_ball(editor)
+        ui.wait(lambda: editor.enabled("add-level"), "the work to end")
+        editor.drawn_view()
+        editor.act("view", "s", "front")
+        editor.drawn_view()
+        before = saved(editor, "painted")
+        editor.act("paint-region", "s", "bodies/ball/regions")
+        editor.find("label", "^Drag over the organ to paint")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = x + width // 2, y + height // 2
+        dabs = lambda: saved(editor, "painted").count("<dab")
+        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
+        editor.focus()
+        stroke = ("mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0)
+        editor.mouse("mousemove", *middle, "mousedown", 1, *stroke, "key", "Escape", "mouseup", 1)
+        assert saved(editor, "painted") == before, "Escape takes the stroke back"
+        editor.mouse("mousemove", *middle, "mousedown", 1, *stroke, "mouseup", 1)
+        ui.wait(lambda: dabs() >= 2, "the dabs of the stroke")
+        fine = dabs()
+        painted = saved(editor, "painted")
+        assert painted.count("<region ") == 1, painted
+        editor.find("label", f"^Painted with {fine} dabs. Holds [0-9]+ of [0-9]+ tetrahedra", showing=False)
+        editor.drawn_view()
+        keep_picture(editor, "painted_region")
+        # A wider brush covers the dabs of the narrow one.
+        editor.mouse("mousemove", middle[0] + 30, middle[1], *("click", 4) * 14)
+        editor.mouse("click", 1)
+        ui.wait(lambda: 0 < saved(editor, "painted").count("radius") and dabs() < fine, "the dab to cover others")
+        editor.act("undo")
+        ui.wait(lambda: saved(editor, "painted") == painted, "the click to be undone")
+        editor.mouse("keydown", "ctrl", "click", 1, "keyup", "ctrl")
+        ui.wait(lambda: "<region" not in saved(editor, "painted"), "the wide brush to erase all of it")
+        editor.act("undo")
+        ui.wait(lambda: saved(editor, "painted") == painted, "the region to come back")
+        editor.mouse("key", "Escape")
+        editor.find("label", "^Click puts the region there")
+        editor.act("undo")
+        ui.wait(lambda: saved(editor, "painted") == before, "the stroke to be undone")
+
+
+@check
 def spheres_by_tolerance_and_region():
     """as few spheres as keep to a tolerance; a region makes them stale and denser there, and the scene keeps how they were made."""
     with start() as editor:

@@ -9,6 +9,7 @@
 #include "core/io/organ.h"
 #include "core/author/generated_edits.h"
 #include "core/author/region_edits.h"
+#include "core/scene/region.h"
 
 static gboolean is_of(SporeObject *object, const char *element) {
   return object && g_str_equal(spore_object_type(object)->element, element);
@@ -45,7 +46,7 @@ static void copy_points(SporeHandEdit *edit, const double *points, const double 
 static gboolean load_regions(SporeHandEdit *edit, SporeObject *holder) {
   gsize count = spore_object_child_count(holder);
   g_autofree double *balls = g_new(double, MAX(4 * count, 1));
-  for (guint i = 0; i < count; i++) spore_region_ball(spore_object_child(holder, i), balls + 4 * i);
+  for (guint i = 0; i < count; i++) spore_region_read_ball(spore_object_child(holder, i), balls + 4 * i);
   edit->kind = SPORE_HAND_REGIONS;
   copy_points(edit, balls, NULL, count);
   return TRUE;

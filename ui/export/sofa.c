@@ -295,8 +295,7 @@ static void tell_body(const Sofa *sofa, guint body, const Kind *kind) {
                                       _(spore_world_body_model(sofa->world, body)->type->label)));
   else if (spore_world_body_role(sofa->world, body) == SPORE_ACTIVE)
     spore_export_lose(sofa->export, g_strdup_printf(_("%s: it stands still, since no device leads it there"), name));
-  if (kind && kind != &still &&
-      spore_object_child_of(spore_object_child_of(object_of(sofa, body), "mechanical"), "region"))
+  if (kind && kind != &still && spore_object_child_of(object_of(sofa, body), "regions"))
     spore_export_lose(sofa->export, g_strdup_printf(_("%s: its stiffer and softer regions"), name));
 }
 

@@ -3,6 +3,7 @@
 
 #include <glib/gi18n.h>
 
+#include "core/author/region_edits.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-property-row.h"
 
@@ -29,6 +30,7 @@ GtkWidget *spore_row_icon_new(const char *icon, const char *text, const char *ac
 static GtkWidget *new_head(SporeObject *region, const char *path) {
   GtkWidget *head = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *name = gtk_label_new(spore_object_name(region));
   g_autofree char *place = g_strdup_printf(_("Place region %s in the view"), spore_object_name(region));
+  g_autofree char *paint = g_strdup_printf(_("Paint region %s in the view"), spore_object_name(region));
   g_autofree char *delete = g_strdup_printf(_("Delete region %s"), spore_object_name(region));
   gtk_label_set_xalign(GTK_LABEL(name), 0);
   gtk_label_set_ellipsize(GTK_LABEL(name), PANGO_ELLIPSIZE_END);
@@ -36,14 +38,31 @@ static GtkWidget *new_head(SporeObject *region, const char *path) {
   gtk_style_context_add_class(gtk_widget_get_style_context(name), "heading");
   gtk_container_add(GTK_CONTAINER(head), name);
   gtk_container_add(GTK_CONTAINER(head), spore_row_icon_new("find-location-symbolic", place, "place-region", path));
+  gtk_container_add(GTK_CONTAINER(head), spore_row_icon_new("document-edit-symbolic", paint, "paint-region", path));
   gtk_container_add(GTK_CONTAINER(head), spore_row_icon_new("edit-delete-symbolic", delete, "remove-region", path));
   return head;
+}
+
+static void add_text(GtkBox *box, const char *text) {
+  GtkWidget *label = gtk_label_new(text);
+  gtk_label_set_xalign(GTK_LABEL(label), 0);
+  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+  gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
+  gtk_container_add(GTK_CONTAINER(box), label);
+}
+
+static void add_facts(GtkBox *box, SporeDocument *document, const SporeObject *region) {
+  g_autofree char *facts = spore_region_facts(document, region);
+  if (facts) add_text(box, facts);
 }
 
 static void add_region(GtkBox *box, SporeEditorDocument *document, SporeObject *region, GPtrArray *rows) {
   g_autofree char *path = spore_object_path(region);
   const SporeObjectType *type = spore_object_type(region);
   gtk_container_add(GTK_CONTAINER(box), new_head(region, path));
+  add_facts(box, spore_editor_document_get(document), region);
   for (guint i = 0; i < type->table->count; i++) {
     GtkWidget *row = spore_property_row_new(document, path, type, i);
     gtk_container_add(GTK_CONTAINER(box), row);
@@ -62,18 +81,14 @@ void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const ch
     add_region(box, document, child, rows);
     count++;
   }
-  if (!count) {
-    GtkWidget *label = gtk_label_new(empty);
-    gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
-    gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
-    gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
-    gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
-    gtk_container_add(GTK_CONTAINER(box), label);
-  }
+  if (!count) add_text(box, empty);
   GtkWidget *button = new_button(gtk_button_new_with_label(_("Add region")), "add-region", holder);
   gtk_widget_set_tooltip_text(button,
                               _("A ball in the middle of the body, to be placed and sized in the view or by its rows"));
-  gtk_widget_set_halign(button, GTK_ALIGN_START);
-  gtk_container_add(GTK_CONTAINER(box), button);
+  GtkWidget *buttons = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+  gtk_container_add(GTK_CONTAINER(buttons), button);
+  button = new_button(gtk_button_new_with_label(_("Paint region")), "paint-region", holder);
+  gtk_widget_set_tooltip_text(button, _("A region that a brush paints on the organ in the view"));
+  gtk_container_add(GTK_CONTAINER(buttons), button);
+  gtk_container_add(GTK_CONTAINER(box), buttons);
 }

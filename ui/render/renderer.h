@@ -39,8 +39,8 @@ guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices
 /* A surface coloured by the scale (colour_scale.h). values: one a vertex, 0..1; below 0: grey. */
 guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                         const guint32 *triangles, gsize triangle_count, const float *values);
-/* Colours a surface by the scale, in place of its own look. values: one a vertex, 0..1; below 0: its own look; NULL:
- * all of it has its own look again. */
+/* Colours a surface by the scale, in place of its own look. values: one a vertex, 0..1, and as 1 beyond; below 0: its
+ * own look; NULL: all of it has its own look again. */
 void spore_renderer_value_surface(SporeRenderer *renderer, guint surface, const float *values);
 /* Whether its cut by a plane is filled: it is closed. */
 gboolean spore_renderer_fills_surface(SporeRenderer *renderer, guint surface);

@@ -15,6 +15,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->lenses = g_array_new(FALSE, FALSE, sizeof(SporeLensState));
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
+  stage->painted_values = g_array_new(FALSE, FALSE, sizeof(float));
   stage->selection = g_hash_table_new(NULL, NULL);
   return stage;
 }
@@ -44,6 +45,7 @@ void spore_stage_free(SporeStage *stage) {
   spore_stage_fits_free(stage->fits);
   g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
+  g_array_free(stage->painted_values, TRUE);
   g_array_free(stage->lenses, TRUE);
   g_array_free(stage->port_lines, TRUE);
   g_free(stage);

@@ -66,6 +66,11 @@ void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate);
 /* Borrowed until the next call; NULL: none. Hidden once simulated time has passed. */
 void spore_stage_set_marks(SporeStage *stage, const SporeStageMarks *marks);
+/* Colours what the balls hold of that body's surface at rest; balls: count x 4, centre and radius, in the body's frame,
+ * m. body: object id; 0: none. To be called again after a rebuild. */
+void spore_stage_set_painted(SporeStage *stage, guint32 body, const double *balls, gsize count);
+/* One ball more of the same body. */
+void spore_stage_add_painted(SporeStage *stage, const double ball[4]);
 /* The scale that colours the spheres which are shown. It goes from 0 to these ends. The value of a sphere is the
  * difference between its radius and the depth of its centre in the mesh that it was made from. */
 typedef struct SporeSphereScale {
@@ -125,6 +130,8 @@ guint32 spore_stage_pick_hold(const SporeStage *stage, SporeVec3 origin, SporeVe
                               SporeStageHold *hold);
 /* Where the place is now. FALSE: the body is gone, or drawn with other triangles. */
 gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *point);
+/* Where the place is while the body is at rest, in the body's frame. FALSE: likewise, or it lies on a sphere. */
+gboolean spore_stage_held_at_rest(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *place);
 /* The surface of a body as it is drawn: borrowed, read only, until the stage changes. FALSE: it shows none. */
 gboolean spore_stage_surface(const SporeStage *stage, guint32 body, SporeTriangleMesh *surface);
 

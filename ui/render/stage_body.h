@@ -100,6 +100,8 @@ struct SporeStage {
   double field_end;                     /* of the scale of colours that is shown; 0: none is */
   const SporeStageMarks *marks;         /* NULL: none */
   guint marks_handle;
+  guint32 painted;        /* id of the body on which a region is shown; 0: none */
+  GArray *painted_values; /* float, one a vertex of its surface: above 0 in the region */
 };
 
 /* Whether the user has not hidden the body. */
@@ -168,6 +170,8 @@ void spore_stage_show_field(SporeStage *stage, const SporeSnapshot *snapshot);
 /* Gives the surfaces their own colours again, and frees what the field took. */
 void spore_stage_drop_field(SporeStage *stage);
 void spore_stage_body_free_shade(SporeStageBody *body);
+/* Gives a surface the colours of its field again, or its own look. */
+void spore_stage_body_recolour(const SporeStage *stage, const SporeStageBody *body);
 /* Removes the triangles that the cuts of the snapshot go through. */
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 

@@ -253,8 +253,9 @@ static void colour(const SporeStage *stage, guint handle, const double *values, 
   spore_renderer_value_surface(stage->renderer, handle, places);
 }
 
-static void colour_body(const SporeStage *stage, const SporeStageBody *body) {
+void spore_stage_body_recolour(const SporeStage *stage, const SporeStageBody *body) {
   const SporeStageShade *shade = body->shade;
+  if (body->object == stage->painted) return;
   gboolean known = shade && shade->count > 0;
   if (body->surface_handle) colour(stage, body->surface_handle, known ? shade->values : NULL, known ? shade->count : 0);
   if (body->inside_handle)
@@ -265,7 +266,7 @@ void spore_stage_show_field(SporeStage *stage, const SporeSnapshot *snapshot) {
   if (stage->options.field == SPORE_FIELD_NONE) return;
   for (guint i = 0; i < stage->bodies->len; i++) shade_body(stage, stage->bodies->pdata[i], snapshot);
   stage->field_end = find_end(stage);
-  for (guint i = 0; i < stage->bodies->len; i++) colour_body(stage, stage->bodies->pdata[i]);
+  for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_recolour(stage, stage->bodies->pdata[i]);
 }
 
 void spore_stage_drop_field(SporeStage *stage) {
@@ -274,7 +275,7 @@ void spore_stage_drop_field(SporeStage *stage) {
     SporeStageBody *body = stage->bodies->pdata[i];
     if (!body->shade) continue;
     free_shade(body);
-    colour_body(stage, body);
+    spore_stage_body_recolour(stage, body);
   }
 }
 

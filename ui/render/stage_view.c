@@ -283,6 +283,14 @@ static const SporeStageBody *find_body(const SporeStage *stage, guint32 object) 
   return NULL;
 }
 
+static SporeVec3 place_on_triangle(const double *points, const SporeStageHold *hold) {
+  SporeVec3 at[3], normal;
+  load_triangle(points, hold->corners, at, &normal);
+  SporeVec3 place = spore_vec3_scale(hold->above, normal);
+  for (int k = 0; k < 3; k++) place = spore_vec3_add_scaled(place, hold->at[k], at[k]);
+  return place;
+}
+
 gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *point) {
   const SporeStageBody *body = find_body(stage, hold->body);
   if (!body || hold->count != (hold->on_sphere ? body->shown : body->surface.count)) return FALSE;
@@ -290,10 +298,14 @@ gboolean spore_stage_held(const SporeStage *stage, const SporeStageHold *hold, S
     *point = spore_vec3_add(spore_vec3_load(body->spheres + 4 * hold->corners[0]), spore_vec3_load(hold->at));
     return TRUE;
   }
-  SporeVec3 at[3], normal;
-  load_triangle(body->surface.positions, hold->corners, at, &normal);
-  *point = spore_vec3_scale(hold->above, normal);
-  for (int k = 0; k < 3; k++) *point = spore_vec3_add_scaled(*point, hold->at[k], at[k]);
+  *point = place_on_triangle(body->surface.positions, hold);
+  return TRUE;
+}
+
+gboolean spore_stage_held_at_rest(const SporeStage *stage, const SporeStageHold *hold, SporeVec3 *place) {
+  const SporeStageBody *body = find_body(stage, hold->body);
+  if (!body || hold->on_sphere || !body->rest_surface || body->rest_count != body->surface.count) return FALSE;
+  *place = place_on_triangle(body->rest_surface, hold);
   return TRUE;
 }
 

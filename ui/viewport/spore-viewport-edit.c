@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/region_edits.h"
+#include "core/scene/region.h"
 #include "ui/panels/report.h"
 #include "ui/viewport/spore-viewport-private.h"
 
@@ -67,9 +68,22 @@ static void add_lines(SporeStageCandidate *candidate, const SporeHandEdit *edit)
   }
 }
 
+/* The chosen region is coloured on the organ. */
+static void show_region(SporeViewport *self) {
+  SporeObject *holder = edits_regions(self) ? spore_document_by_id(document_of(self), self->edit.asset) : NULL;
+  const SporeObject *region = holder && self->edit.chosen < spore_object_child_count(holder)
+                                  ? spore_object_child(holder, (guint)self->edit.chosen)
+                                  : NULL;
+  guint count = region ? spore_region_ball_count(region) : 0;
+  g_autofree double *balls = g_new(double, 4 * MAX(count, 1));
+  if (region) spore_region_read_balls(region, balls);
+  if (self->stage) spore_stage_set_painted(self->stage, region ? self->edit.body : 0, balls, count);
+}
+
 static void show(SporeViewport *self) {
   static const SporeQuality none = {0};
   const SporeHandEdit *edit = &self->edit;
+  show_region(self);
   gboolean solid = edit->count && !edits_regions(self); /* rings show regions */
   SporeStageCandidate *candidate = solid ? g_new0(SporeStageCandidate, 1) : NULL;
   if (candidate) {
@@ -86,7 +100,7 @@ static void show(SporeViewport *self) {
 void spore_viewport_edit_refresh(SporeViewport *self) {
   if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
   SporeObject *holder = self->regions ? spore_document_by_id(document_of(self), self->regions) : NULL;
-  if (spore_viewport_is_locked(self)) spore_hand_edit_close(&self->edit);
+  if (spore_viewport_is_locked(self) || self->brush.body) spore_hand_edit_close(&self->edit);
   else if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
   else spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
   show(self);

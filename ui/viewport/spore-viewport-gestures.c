@@ -83,11 +83,12 @@ static void move_port(SporeViewport *self) {
 void spore_viewport_end_drag(SporeViewport *self) {
   gboolean edits = self->drag == DRAG_EDIT && self->document, places = self->drag == DRAG_PLACE && self->document;
   gboolean gizmo = self->drag == DRAG_GIZMO && self->document, ports = self->drag == DRAG_PORT && self->document;
-  gboolean box = self->drag == DRAG_BOX && self->document;
+  gboolean box = self->drag == DRAG_BOX && self->document, brush = self->drag == DRAG_BRUSH && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
   if (gizmo) spore_viewport_gizmo_release(self, TRUE);
   if (edits) spore_viewport_edit_release(self, TRUE);
+  if (brush) spore_viewport_brush_release(self, TRUE);
   if (places) spore_viewport_places_release(self, TRUE);
   if (ports) spore_viewport_ports_release(self, TRUE);
   if (box) spore_viewport_box_release(self, TRUE);
@@ -101,6 +102,10 @@ static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_EDIT) {
     self->drag = DRAG_NONE;
     spore_viewport_edit_release(self, FALSE);
+  }
+  if (self->drag == DRAG_BRUSH) {
+    self->drag = DRAG_NONE;
+    spore_viewport_brush_release(self, FALSE);
   }
   if (self->drag == DRAG_PLACE) {
     self->drag = DRAG_NONE;
@@ -149,6 +154,11 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
     return;
   }
   if (self->boxing && spore_viewport_box_press(self, event)) return;
+  if (spore_viewport_has_brush(self)) {
+    self->beside = !spore_viewport_brush_press(self, event->x, event->y, event->state & GDK_CONTROL_MASK);
+    self->pressed_x = event->x, self->pressed_y = event->y;
+    return;
+  }
   if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_ports_press(self, event->x, event->y)) return;
   if (spore_viewport_gizmo_press(self, event->x, event->y)) return;
   if (spore_viewport_box_press(self, event)) return;
@@ -197,7 +207,8 @@ gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, S
       spore_viewport_hand_squeeze(self, SPORE_HAND_RESTS);
     return GDK_EVENT_STOP;
   }
-  gboolean selects = !spore_viewport_edits_regions(self) && !spore_viewport_measures_now(self);
+  gboolean selects =
+      !spore_viewport_edits_regions(self) && !spore_viewport_has_brush(self) && !spore_viewport_measures_now(self);
   if (self->beside && self->document && selects) spore_editor_document_select(self->document, 0);
   self->beside = FALSE;
   spore_viewport_end_drag(self);
@@ -216,8 +227,8 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   }
   switch (self->drag) {
   case DRAG_NONE:
-    if (self->anchor_count || spore_viewport_measures_now(self))
-      gtk_widget_queue_draw(area); /* the line to the cursor */
+    if (self->anchor_count || spore_viewport_measures_now(self) || spore_viewport_has_brush(self))
+      gtk_widget_queue_draw(area); /* the line to the cursor, or the brush */
     if (self->picking) emit_place(self, "pointed", event->x, event->y);
     return GDK_EVENT_PROPAGATE;
   case DRAG_ORBIT:
@@ -235,6 +246,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
     break;
   case DRAG_EDIT:
     spore_viewport_edit_motion(self);
+    break;
+  case DRAG_BRUSH:
+    spore_viewport_brush_motion(self, event->x - dx, event->y - dy);
     break;
   case DRAG_PLACE:
     move_place(self);
@@ -262,6 +276,7 @@ static double notches_of(const GdkEventScroll *event) {
 gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self) {
   double notches = notches_of(event);
   if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && session_of(self)) spore_viewport_hand_deepen(self, notches);
+  else if (spore_viewport_brush_scroll(self, notches)) return GDK_EVENT_STOP;
   else if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !spore_viewport_edit_scroll(self, notches)) {
     spore_viewport_leave_scene_camera(self);
     double away = self->habits.wheel_goes_away ? -notches : notches;
@@ -349,8 +364,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   }
   if (modifiers == GDK_CONTROL_MASK && look_from_other_side(area, event->keyval)) return GDK_EVENT_STOP;
   if (modifiers) return GDK_EVENT_PROPAGATE;
-  if (spore_viewport_gizmo_key(self, event->keyval) || spore_viewport_edit_key(self, event->keyval) ||
-      spore_viewport_hand_key(self, event->keyval))
+  if (spore_viewport_gizmo_key(self, event->keyval) || spore_viewport_brush_key(self, event->keyval) ||
+      spore_viewport_edit_key(self, event->keyval) || spore_viewport_hand_key(self, event->keyval))
     return GDK_EVENT_STOP;
   switch (event->keyval) {
   case GDK_KEY_Escape:

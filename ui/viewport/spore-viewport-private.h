@@ -16,6 +16,7 @@ typedef enum {
   DRAG_PROBE,
   DRAG_PULL,
   DRAG_EDIT,
+  DRAG_BRUSH,
   DRAG_PLACE,
   DRAG_GIZMO,
   DRAG_PORT,
@@ -37,6 +38,15 @@ typedef struct SporeViewportDrawing {
   gint64 since;
   guint look; /* source that looks whether it is drawn */
 } SporeViewportDrawing;
+
+/* What is painted on, and with what. */
+typedef struct SporeViewportBrush {
+  guint32 body, region; /* ids; body 0: nothing is painted on; region 0: the first stroke makes one */
+  char *holder;         /* path of what holds the regions */
+  double radius;        /* m */
+  GArray *balls;        /* of the region, during a stroke (core/author/brush.h); NULL: none is under way */
+  gboolean erases;
+} SporeViewportBrush;
 
 struct _SporeViewport {
   GtkOverlay parent;
@@ -66,10 +76,11 @@ struct _SporeViewport {
   gboolean presented;
   gboolean figures; /* in the corner, those of an author, too */
 
-  SporeHandEdit edit;       /* of the Edit tool */
-  guint32 regions;          /* id of the object whose regions are edited; 0: spheres or a curve are edited */
-  gboolean edit_resizes;    /* the drag moves the handle on the rim, else the one in the middle */
-  double edit_before[4];    /* the chosen sphere or point when the drag began */
+  SporeHandEdit edit;    /* of the Edit tool */
+  guint32 regions;       /* id of the object whose regions are edited; 0: spheres or a curve are edited */
+  gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
+  double edit_before[4]; /* the chosen sphere or point when the drag began */
+  SporeViewportBrush brush;
   guint edit_timer;         /* wheel notches that are not committed yet */
   double axes_shown[3];     /* the camera's azimuth, elevation and roll, as the cube shows them */
   const char *pointed_view; /* of the face of the cube under the pointer; NULL: none */
@@ -234,6 +245,17 @@ gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FAL
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
 /* Moves the chosen region to a click on the surface of that body. FALSE: no region moves. */
 gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
+
+/* spore-viewport-brush.c: painting regions. */
+void spore_viewport_brush_draw(SporeViewport *self, cairo_t *cr); /* the brush under the cursor */
+void spore_viewport_brush_show(SporeViewport *self);              /* what is painted, on a stage that was rebuilt */
+/* FALSE: nothing is painted on, or it is not there. */
+gboolean spore_viewport_brush_press(SporeViewport *self, double x, double y, gboolean erases);
+void spore_viewport_brush_motion(SporeViewport *self, double from_x, double from_y); /* to last_x, last_y */
+void spore_viewport_brush_release(SporeViewport *self, gboolean keep);
+gboolean spore_viewport_brush_scroll(SporeViewport *self, double notches); /* FALSE: nothing is painted on */
+gboolean spore_viewport_brush_key(SporeViewport *self, guint key);         /* FALSE: not its key */
+gboolean spore_viewport_end_brush(SporeViewport *self);                    /* FALSE: nothing was painted on */
 
 /* spore-viewport-gizmo.c: moving and turning what is selected. */
 void spore_viewport_gizmo_draw(SporeViewport *self, cairo_t *cr);

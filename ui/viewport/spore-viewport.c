@@ -41,6 +41,12 @@ static void show_selection(SporeViewport *self) {
   spore_stage_set_selection(self->stage, ids, count);
 }
 
+/* What is edited by hand, after the document or the stage has changed. */
+static void refresh_edit(SporeViewport *self) {
+  spore_viewport_edit_refresh(self);
+  if (spore_viewport_has_brush(self)) spore_viewport_brush_show(self);
+}
+
 static gboolean rebuild(gpointer data) {
   SporeViewport *self = data;
   self->rebuild = 0;
@@ -58,7 +64,7 @@ static gboolean rebuild(gpointer data) {
   spore_viewport_links_refresh(self);
   if (self->drag != DRAG_PORT) spore_viewport_ports_refresh(self);
   spore_viewport_look_afresh(self);
-  spore_viewport_edit_refresh(self);
+  refresh_edit(self);
   update_stage(self);
   return G_SOURCE_REMOVE;
 }
@@ -94,6 +100,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   spore_viewport_ports_draw(self, cr);
   spore_viewport_hand_draw(self, cr);
   spore_viewport_edit_draw(self, cr);
+  spore_viewport_brush_draw(self, cr);
   spore_viewport_places_draw(self, cr);
   spore_viewport_gizmo_draw(self, cr);
   spore_viewport_measures_draw(self, cr);
@@ -185,6 +192,7 @@ static void player_replaced(SporeViewport *self) {
 static void selection_changed(SporeViewport *self) {
   if (self->stage) show_selection(self);
   self->regions = 0;
+  spore_viewport_end_brush(self);
   spore_viewport_ports_refresh(self);
   spore_viewport_edit_refresh(self);
   spore_viewport_overlay_update(self); /* which instrument is led */
@@ -194,14 +202,17 @@ static void selection_changed(SporeViewport *self) {
 static void document_changed(SporeViewport *self, int kind, guint id, guint property) {
   SporeObject *object = spore_document_by_id(spore_editor_document_get(self->document), id);
   /* Regions do not change how bodies look. */
-  if (object && spore_region_is(object)) spore_viewport_edit_refresh(self);
+  if (object && (spore_region_is(object) || spore_region_is_dab(object))) refresh_edit(self);
   else queue_rebuild(self);
 }
 
 /* Life. */
 
 static void release_document(SporeViewport *self) {
-  if (self->document) spore_viewport_edit_end(self);
+  if (self->document) {
+    spore_viewport_edit_end(self);
+    spore_viewport_end_brush(self);
+  }
   g_clear_handle_id(&self->rebuild, g_source_remove);
   g_clear_pointer(&self->stage, spore_stage_free);
   if (self->renderer) spore_renderer_clear(self->renderer);
@@ -289,6 +300,7 @@ void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
 void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool) {
   spore_viewport_end_drag(self);
   spore_viewport_edit_end(self);
+  spore_viewport_end_brush(self);
   spore_viewport_end_measuring(self);
   self->tool = tool;
   light_tool(self);

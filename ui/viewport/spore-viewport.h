@@ -69,6 +69,10 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 /* Leads the next instrument, round and round. */
 void spore_viewport_lead_next(SporeViewport *self);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
+/* Paints on the body, until another tool or body is chosen. path: of a region, which is painted further, or of what
+ * holds regions (spore_edit_add_region): the first stroke then adds one. */
+void spore_viewport_begin_brush(SporeViewport *self, SporeObject *body, const char *path);
+gboolean spore_viewport_has_brush(SporeViewport *self);
 /* Whether a port of what is selected is shown, which the Edit tool moves. */
 gboolean spore_viewport_has_ports(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */

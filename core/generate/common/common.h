@@ -10,12 +10,13 @@
 /* Returns false and sets *error: not enough memory for what is generated. */
 bool spore_generate_no_memory(SporeError *error);
 
-/* A ball in which a generator uses another density or edge length. */
+/* A ball in which a generator uses another density or edge length. A region that is painted has several balls. */
 typedef struct SporeGenerateRegion {
   double centre[3], radius; /* m */
   double value;             /* density of spheres (1: as elsewhere), or edge length of cells, m */
+  size_t region;            /* which region the ball is of, from 0; balls of one region follow each other */
 } SporeGenerateRegion;
-#define SPORE_GENERATE_REGIONS 64 /* at most */
+#define SPORE_GENERATE_REGIONS 1024 /* balls, at most */
 
 /* Random numbers: splitmix64, the same on every machine. */
 typedef struct SporeRandom {

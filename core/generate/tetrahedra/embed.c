@@ -99,7 +99,7 @@ static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, c
   const size_t nodes = plan->grid.count[0] * plan->grid.count[1] * plan->grid.count[2];
   double edge = options->cells ? cbrt(work->volume / (SPORE_TETRAHEDRA_CELL * (double)options->cells)) : options->size;
   for (int i = 0; i < 8; i++) {
-    spore_sizing_plan_scale(plan, work, EDGE_SCALE * edge);
+    spore_sizing_plan_scale(plan, EDGE_SCALE * edge);
     for (size_t n = 0; n < nodes; n++) plan->grid.size[n] /= EDGE_SCALE;
     if (!options->cells) return;
     edge *= cbrt(fmin(fmax(count_of(&plan->grid, mesh) / (double)options->cells, 0.5), 2));

@@ -74,7 +74,7 @@ static gboolean mesh_at(Fit *fit, double scale, SporeTetrahedraFinish finish, Sp
                         GError **error) {
   const SporeTetrahedraOptions *options = &fit->work->options;
   double expected = options->cells ? (double)options->cells : fit->volume / (0.12 * pow(options->size, 3));
-  spore_sizing_plan_scale(&fit->plan, fit->work, scale);
+  spore_sizing_plan_scale(&fit->plan, scale);
   return spore_tetrahedra_refine(fit->work, fit->surface, &fit->plan.grid, finish, (size_t)(3 * expected) + 10000, mesh,
                                  error);
 }

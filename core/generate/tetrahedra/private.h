@@ -165,13 +165,14 @@ typedef struct SporeSizingPlan {
   SporeSizing grid; /* size: result for the last scale */
   double *relative; /* at each node, as a fraction of the scale */
   double *absolute; /* upper bound at each node; a bound below a quarter of the scale is raised to that quarter */
+  double *regions;  /* upper bound at each node, by the balls of regions */
 } SporeSizingPlan;
 bool spore_sizing_plan_create(SporeSizingPlan *plan, const SporeTetrahedraWork *work, const SporeTriangleMesh *surface,
                               SporeError *error);
 void spore_sizing_plan_clear(SporeSizingPlan *plan);
 /* plan->grid.size for a scale: relative x scale, absolute bounds, regions; the size grows by no more than the
  * gradation. */
-void spore_sizing_plan_scale(SporeSizingPlan *plan, const SporeTetrahedraWork *work, double scale);
+void spore_sizing_plan_scale(SporeSizingPlan *plan, double scale);
 /* Bounds the relative size around p by `relative`. */
 void spore_sizing_plan_refine(SporeSizingPlan *plan, SporeVec3 p, double relative);
 

@@ -58,6 +58,22 @@ static bool bound_by_curvature(SporeSizingPlan *plan, const SporeTriangleMesh *s
   return done || spore_mesh_no_memory(error);
 }
 
+static double region_bound(const SporeGenerateRegion *region, SporeVec3 p, double spacing) {
+  double beyond = spore_vec3_distance(p, spore_vec3_load(region->centre)) - region->radius - 0.5 * spacing;
+  return EDGE_SCALE * region->value + SPORE_SIZING_GRADATION * fmax(beyond, 0);
+}
+
+/* Bounds at the nodes by the balls of the regions: the edge length in the nearest, and what may grow from there. */
+static void bound_by_regions(SporeSizingPlan *plan, const SporeTetrahedraOptions *options) {
+  const SporeSizing *grid = &plan->grid;
+  for (size_t z = 0, i = 0; z < grid->count[2]; z++)
+    for (size_t y = 0; y < grid->count[1]; y++)
+      for (size_t x = 0; x < grid->count[0]; x++, i++)
+        for (size_t r = 0; r < options->region_count; r++)
+          plan->regions[i] =
+              fmin(plan->regions[i], region_bound(options->regions + r, node_at(grid, x, y, z), grid->spacing));
+}
+
 bool spore_sizing_plan_create(SporeSizingPlan *plan, const SporeTetrahedraWork *work, const SporeTriangleMesh *surface,
                               SporeError *error) {
   double lower[3], upper[3], longest = 0;
@@ -74,9 +90,12 @@ bool spore_sizing_plan_create(SporeSizingPlan *plan, const SporeTetrahedraWork *
   plan->grid.size = SPORE_NEW_ARRAY(double, count);
   plan->relative = SPORE_NEW_ARRAY(double, count);
   plan->absolute = SPORE_NEW_ARRAY(double, count);
-  bool done = plan->grid.size && plan->relative && plan->absolute;
+  plan->regions = SPORE_NEW_ARRAY(double, count);
+  bool done = plan->grid.size && plan->relative && plan->absolute && plan->regions;
   if (!done) spore_mesh_no_memory(error);
-  for (size_t i = 0; done && i < count; i++) plan->relative[i] = 1, plan->absolute[i] = HUGE_VAL;
+  for (size_t i = 0; done && i < count; i++)
+    plan->relative[i] = 1, plan->absolute[i] = HUGE_VAL, plan->regions[i] = HUGE_VAL;
+  if (done) bound_by_regions(plan, &work->options);
   if (done && work->options.curvature > 0) done = bound_by_curvature(plan, surface, work->options.curvature, error);
   if (!done) spore_sizing_plan_clear(plan);
   return done;
@@ -86,6 +105,7 @@ void spore_sizing_plan_clear(SporeSizingPlan *plan) {
   spore_free(plan->grid.size);
   spore_free(plan->relative);
   spore_free(plan->absolute);
+  spore_free(plan->regions);
   *plan = (SporeSizingPlan){0};
 }
 
@@ -94,11 +114,6 @@ void spore_sizing_plan_refine(SporeSizingPlan *plan, SporeVec3 p, double relativ
   corners_around(&plan->grid, p, corners);
   for (int i = 0; i < 8; i++)
     plan->relative[corners[i]] = fmax(fmin(plan->relative[corners[i]], relative), LEAST_RELATIVE);
-}
-
-static double region_bound(const SporeGenerateRegion *region, SporeVec3 p, double spacing) {
-  double beyond = spore_vec3_distance(p, spore_vec3_load(region->centre)) - region->radius - 0.5 * spacing;
-  return EDGE_SCALE * region->value + SPORE_SIZING_GRADATION * fmax(beyond, 0);
 }
 
 /* The neighbours that precede a node in the order of the nodes; the neighbours that follow are their mirror images.
@@ -149,19 +164,14 @@ static void limit_growth(SporeSizing *grid, const Neighbour neighbours[NEIGHBOUR
   }
 }
 
-void spore_sizing_plan_scale(SporeSizingPlan *plan, const SporeTetrahedraWork *work, double scale) {
+void spore_sizing_plan_scale(SporeSizingPlan *plan, double scale) {
   SporeSizing *grid = &plan->grid;
   double least = HUGE_VAL, most = 0;
-  size_t i = 0;
-  for (size_t z = 0; z < grid->count[2]; z++)
-    for (size_t y = 0; y < grid->count[1]; y++)
-      for (size_t x = 0; x < grid->count[0]; x++, i++) {
-        double size = fmin(scale * plan->relative[i], fmax(plan->absolute[i], LEAST_CURVATURE * scale));
-        for (size_t r = 0; r < work->options.region_count; r++)
-          size = fmin(size, region_bound(work->options.regions + r, node_at(grid, x, y, z), grid->spacing));
-        grid->size[i] = size;
-        least = size < least ? size : least, most = size > most ? size : most;
-      }
+  for (size_t i = 0; i < node_count(grid); i++) {
+    double size = fmin(scale * plan->relative[i], fmax(plan->absolute[i], LEAST_CURVATURE * scale));
+    grid->size[i] = size = fmin(size, plan->regions[i]);
+    least = size < least ? size : least, most = size > most ? size : most;
+  }
   if (!(most > least)) return; /* nothing to limit */
   Neighbour neighbours[NEIGHBOURS];
   list_neighbours(grid, neighbours);
