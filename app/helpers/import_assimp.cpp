@@ -22,10 +22,14 @@
 #include <assimp/scene.h>
 
 extern "C" {
+#if SPORE_HAVE_PNG
+#include "app/helpers/atlas.h"
+#endif
 #if SPORE_HAVE_JPEG
 #include "app/helpers/photograph.h"
 #endif
 #include "core/io/import_wire.h"
+#include "core/math/colour.h"
 }
 
 #define N_(text) text
@@ -93,6 +97,7 @@ struct Request {
   std::vector<SporeImportMaterial> materials;
   std::vector<SporeImportPicture> pictures;
   std::vector<const char *> bytes; /* of each picture */
+  uint64_t look = 0;               /* as in the head */
   size_t worn = 0;                 /* as in the head */
 };
 
@@ -109,13 +114,33 @@ struct Picture {
   std::string bytes;
 };
 
+/* What a mesh of a node wears. */
+struct Look {
+  Source source;
+  float colour[3] = {1, 1, 1}; /* sRGB; white where the file says none, as OBJ and glTF have it */
+  bool coloured = false;       /* the file says it */
+  uint32_t dress = SPORE_IMPORT_BARE;
+  bool operator==(const Look &other) const {
+    return source == other.source && dress == other.dress && coloured == other.coloured &&
+           std::equal(colour, colour + 3, other.colour);
+  }
+};
+
+/* Triangles that follow each other and wear the same. */
+struct Range {
+  uint64_t first, count;
+  size_t part;
+  Look look;
+};
+
 struct Mesh {
   std::vector<double> vertices;
   std::vector<uint32_t> triangles;
-  bool placed = false;       /* the file brings pictures */
+  bool placed = false;       /* it may wear a picture */
   std::vector<float> places; /* then of each corner in its picture, from the upper left corner; 0 where it has none */
   std::vector<Picture> pictures;
   std::vector<SporeImportPart> parts; /* of at least one triangle each */
+  std::vector<Range> ranges;          /* in the order of the triangles, and none is empty */
   uint64_t in_parts = 0;              /* triangles */
   uint64_t passed_over = 0;
 };
@@ -128,12 +153,6 @@ std::string name_of(const aiString &name) {
     if (text.rfind(made, 0) == 0) return "";
   if (text == "ROOT") return "";
   return text;
-}
-
-/* Light that a base colour lets through, as the value of sRGB (IEC 61966-2-1). */
-float to_srgb(double light) {
-  const double one = std::min(std::max(light, 0.0), 1.0);
-  return static_cast<float>(one <= 0.0031308 ? 12.92 * one : 1.055 * std::pow(one, 1 / 2.4) - 0.055);
 }
 
 /* The material that the file gives the mesh. A mesh that names none has the importer's own, which is the last one of
@@ -152,27 +171,21 @@ const SporeImportMaterial *described(const aiScene &scene, const aiMesh &mesh, c
   return nullptr;
 }
 
-/* Takes the colour of the mesh with the most faces. */
-void take_colour(const aiScene &scene, const aiNode &node, const Request &request, SporeImportPart &part) {
-  const aiMesh *largest = nullptr;
-  for (unsigned m = 0; m < node.mNumMeshes; m++) {
-    const aiMesh *mesh = scene.mMeshes[node.mMeshes[m]];
-    if (!largest || mesh->mNumFaces > largest->mNumFaces) largest = mesh;
-  }
-  if (const SporeImportMaterial *said = largest ? described(scene, *largest, request) : nullptr) {
-    std::copy(said->colour, said->colour + 3, part.colour);
-    part.coloured = said->coloured;
+/* Takes the colour that the material of the mesh says. */
+void take_colour(const aiScene &scene, const aiMesh &mesh, const Request &request, Look &look) {
+  if (const SporeImportMaterial *said = described(scene, mesh, request)) {
+    if (said->coloured) std::copy(said->colour, said->colour + 3, look.colour);
+    look.coloured = said->coloured;
     return;
   }
-  const aiMaterial *material = largest ? material_of(scene, *largest) : nullptr;
+  const aiMaterial *material = material_of(scene, mesh);
   aiColor4D colour;
   if (!material || material->Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS) return;
-  const double light[3] = {colour.r, colour.g, colour.b};
-  for (int k = 0; k < 3; k++) {
-    if (!std::isfinite(light[k])) return;
-    part.colour[k] = to_srgb(light[k]);
-  }
-  part.coloured = 1;
+  const float light[3] = {colour.r, colour.g, colour.b};
+  if (!std::all_of(light, light + 3, [](float one) { return std::isfinite(one); })) return;
+  std::transform(light, light + 3, look.colour,
+                 [](float one) { return static_cast<float>(spore_srgb(std::min(std::max(one, 0.0f), 1.0f))); });
+  look.coloured = true;
 }
 
 /* The name of the picture, whose signs may be written as codes. */
@@ -233,28 +246,16 @@ std::string content_of(const Source &source, const Request &request) {
   return std::string(static_cast<const char *>(bytes), size);
 }
 
-/* Takes the picture that all meshes of the node wear. */
-void take_picture(const aiScene &scene, const aiNode &node, const Request &request, Mesh &mesh, SporeImportPart &part) {
-  Source common;
-  for (unsigned m = 0; m < node.mNumMeshes; m++) {
-    uint32_t dress;
-    const Source source = picture_of(scene, *scene.mMeshes[node.mMeshes[m]], request, &dress);
-    if (m == 0) common = source, part.dress = dress;
-    else if (dress != part.dress || !(source == common)) part.dress = SPORE_IMPORT_MIXED;
-  }
-  if (part.dress != SPORE_IMPORT_WORN) return;
-  const auto found = std::find_if(mesh.pictures.begin(), mesh.pictures.end(),
-                                  [&common](const Picture &picture) { return picture.of == common; });
-  if (found == mesh.pictures.end() && mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) {
-    part.dress = SPORE_IMPORT_UNKNOWN;
-    return;
-  }
-  part.picture = static_cast<uint32_t>(found - mesh.pictures.begin() + 1);
-  if (found == mesh.pictures.end()) mesh.pictures.push_back({common, content_of(common, request)});
+Look look_of(const aiScene &scene, const aiMesh &mesh, const Request &request) {
+  Look look;
+  if (request.look == SPORE_IMPORT_SHAPE) return look;
+  look.source = picture_of(scene, mesh, request, &look.dress);
+  if (!request.worn) take_colour(scene, mesh, request, look);
+  return look;
 }
 
-/* The meshes of a node differ only in material. Together they are one part. */
-void end_part(const aiScene &scene, const aiNode &node, const Request &request, const std::string &group, Mesh &mesh) {
+/* The meshes of a node differ only in material. Together they are one part, whose colour is that of most of it. */
+void end_part(const aiScene &scene, const aiNode &node, const std::string &group, Mesh &mesh) {
   SporeImportPart part = {};
   part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
   if (!part.triangle_count) return;
@@ -263,9 +264,153 @@ void end_part(const aiScene &scene, const aiNode &node, const Request &request, 
   if (name.empty()) name = name_of(scene.mMeshes[node.mMeshes[0]]->mName);
   name.copy(part.name, sizeof part.name - 1);
   group.copy(part.group, sizeof part.group - 1);
-  take_colour(scene, node, request, part);
-  take_picture(scene, node, request, mesh, part);
+  const Range *largest = nullptr;
+  for (const Range &range : mesh.ranges)
+    if (range.part == mesh.parts.size() && (!largest || range.count > largest->count)) largest = &range;
+  std::copy(largest->look.colour, largest->look.colour + 3, part.colour);
+  part.coloured = largest->look.coloured;
   mesh.parts.push_back(part);
+}
+
+/* Some of the ranges, which wear one picture together. */
+using Ranges = std::vector<Range *>;
+
+/* The number, from 1, of a picture of the answer; 0: there are too many. */
+uint32_t keep_picture(const Source &source, std::string content, Mesh &mesh) {
+  if (mesh.pictures.size() == SPORE_IMPORT_PICTURES_MAXIMUM) return 0;
+  mesh.pictures.push_back({source, std::move(content)});
+  return static_cast<uint32_t>(mesh.pictures.size());
+}
+
+/* The number of the picture of a file. */
+uint32_t number_of(const Source &source, const Request &request, Mesh &mesh) {
+  for (size_t i = 0; i < mesh.pictures.size(); i++)
+    if (mesh.pictures[i].of == source) return static_cast<uint32_t>(i + 1);
+  return keep_picture(source, content_of(source, request), mesh);
+}
+
+#if SPORE_HAVE_PNG
+/* Shifts each triangle by whole pictures, so that it begins in the first one, and tells the places used. */
+void unroll(const Range &range, Mesh &mesh, SporeAtlasLook &look) {
+  for (uint64_t t = range.first; t < range.first + range.count; t++)
+    for (int k = 0; k < 2; k++) {
+      float *corners = mesh.places.data() + 6 * t + k, least = HUGE_VALF, most = -HUGE_VALF;
+      for (int c = 0; c < 3; c++) {
+        if (!(std::fabs(corners[2 * c]) <= 1e6f)) corners[2 * c] = 0;
+        least = std::min(least, corners[2 * c]), most = std::max(most, corners[2 * c]);
+      }
+      const float shift = std::floor(least);
+      for (int c = 0; c < 3; c++) corners[2 * c] -= shift;
+      look.low[k] = std::min(look.low[k], static_cast<double>(least - shift));
+      look.high[k] = std::max(look.high[k], static_cast<double>(most - shift));
+    }
+}
+
+/* The pictures and looks of ranges, each once. */
+struct Palette {
+  std::vector<Source> sources;
+  std::vector<SporeAtlasPicture> pictures;
+  std::vector<SporeAtlasLook> looks;
+  std::vector<size_t> look_of; /* of each range */
+};
+
+size_t picture_in(Palette &palette, const Source &source, const Request &request) {
+  if (!source) return 0;
+  const auto found = std::find(palette.sources.begin(), palette.sources.end(), source);
+  if (found != palette.sources.end()) return static_cast<size_t>(found - palette.sources.begin()) + 1;
+  SporeAtlasPicture picture = {};
+  picture.content = source.inside ? static_cast<const void *>(source.inside->pcData) : request.bytes[source.beside - 1];
+  picture.size = source.inside ? source.inside->mWidth : request.pictures[source.beside - 1].size;
+  palette.sources.push_back(source);
+  palette.pictures.push_back(picture);
+  return palette.sources.size();
+}
+
+Palette palette_of(const Ranges &ranges, const Request &request, Mesh &mesh) {
+  Palette palette;
+  for (const Range *range : ranges) {
+    SporeAtlasLook look = {};
+    look.picture = picture_in(palette, range->look.source, request);
+    std::copy(range->look.colour, range->look.colour + 3, look.colour);
+    for (int k = 0; k < 2; k++) look.low[k] = HUGE_VAL, look.high[k] = -HUGE_VAL;
+    auto found = std::find_if(palette.looks.begin(), palette.looks.end(), [&look](const SporeAtlasLook &other) {
+      return other.picture == look.picture && std::equal(look.colour, look.colour + 3, other.colour);
+    });
+    if (found == palette.looks.end()) found = palette.looks.insert(found, look);
+    palette.look_of.push_back(static_cast<size_t>(found - palette.looks.begin()));
+    unroll(*range, mesh, *found);
+  }
+  return palette;
+}
+
+/* Makes one picture of what the ranges wear, and moves their places there. 0: it cannot be made. */
+uint32_t make_atlas(const Ranges &ranges, const Request &request, Mesh &mesh, SporeImportPart &worn) {
+  Palette palette = palette_of(ranges, request, mesh);
+  void *png;
+  size_t size;
+  if (palette.sources.size() > SPORE_IMPORT_PICTURES_MAXIMUM ||
+      !spore_atlas_make(palette.pictures.data(), palette.pictures.size(), palette.looks.data(), palette.looks.size(),
+                        &png, &size))
+    return 0;
+  const std::string content(static_cast<const char *>(png), size);
+  std::free(png);
+  for (size_t r = 0; r < ranges.size(); r++) {
+    const SporeAtlasLook &look = palette.looks[palette.look_of[r]];
+    for (uint64_t i = 6 * ranges[r]->first; i < 6 * (ranges[r]->first + ranges[r]->count); i++)
+      mesh.places[i] = static_cast<float>(mesh.places[i] * look.scale[i % 2] + look.offset[i % 2]);
+  }
+  worn.dress = SPORE_IMPORT_WORN;
+  for (const SporeAtlasPicture &picture : palette.pictures)
+    if (picture.smaller) worn.dress = SPORE_IMPORT_SMALLER;
+  for (const Range *range : ranges)
+    if (!range->look.source && range->look.dress != SPORE_IMPORT_BARE) worn.dress = SPORE_IMPORT_PARTLY;
+  for (size_t i = 0; i < palette.pictures.size(); i++)
+    if (palette.pictures[i].lost) worn.dress = SPORE_IMPORT_PARTLY, worn.missing = palette.sources[i].beside;
+  return keep_picture(Source(), content, mesh);
+}
+#else
+uint32_t make_atlas(const Ranges &, const Request &, Mesh &, SporeImportPart &) { return 0; }
+#endif
+
+/* Whether one picture must show what the ranges wear: where they differ, and not only in the colour of parts. */
+bool are_mixed(const Ranges &ranges) {
+  bool pictured = false, differ = false, part_differs = false;
+  for (size_t r = 0; r < ranges.size(); r++) {
+    pictured = pictured || ranges[r]->look.source;
+    if (r == 0 || ranges[r]->look == ranges[r - 1]->look) continue;
+    differ = true;
+    part_differs = part_differs || ranges[r]->part == ranges[r - 1]->part;
+  }
+  return part_differs || (pictured && differ);
+}
+
+/* Says of the parts what their ranges wear. */
+void dress(const Ranges &ranges, const Request &request, Mesh &mesh) {
+  const Look &look = ranges[0]->look;
+  SporeImportPart worn = {};
+  worn.dress = SPORE_IMPORT_MIXED;
+  const bool mixed = are_mixed(ranges);
+  if (mixed) worn.picture = make_atlas(ranges, request, mesh, worn);
+  else if (look.source) worn.picture = number_of(look.source, request, mesh);
+  if (!mixed) worn.dress = look.source && !worn.picture ? static_cast<uint32_t>(SPORE_IMPORT_UNKNOWN) : look.dress;
+  else if (!worn.picture) worn.dress = SPORE_IMPORT_MIXED;
+  for (const Range *range : ranges) {
+    SporeImportPart &part = mesh.parts[range->part];
+    part.dress = worn.dress, part.picture = worn.picture, part.missing = worn.missing;
+    if (mixed && worn.picture) std::fill(part.colour, part.colour + 3, 1.0f), part.coloured = 1;
+  }
+}
+
+void dress_all(const Request &request, Mesh &mesh) {
+  Ranges ranges;
+  for (size_t r = 0; r < mesh.ranges.size(); r++) {
+    ranges.push_back(&mesh.ranges[r]);
+    const bool ends = r + 1 == mesh.ranges.size() ||
+                      (request.look == SPORE_IMPORT_APART && mesh.ranges[r + 1].part != mesh.ranges[r].part);
+    if (!ends) continue;
+    dress(ranges, request, mesh);
+    ranges.clear();
+  }
 }
 
 /* said: how the material moves and repeats its picture; nullptr: not at all. */
@@ -311,9 +456,12 @@ void append(const aiScene &scene, const aiNode &node, const Request &request, co
       const aiVector3D p = transform * from.mVertices[v];
       mesh.vertices.insert(mesh.vertices.end(), {p.x, p.y, p.z});
     }
+    const uint64_t before = mesh.triangles.size() / 3;
     append_faces(from, first, mirrored, request.worn ? nullptr : described(scene, from, request), mesh);
+    const uint64_t count = mesh.triangles.size() / 3 - before;
+    if (count) mesh.ranges.push_back({before, count, mesh.parts.size(), look_of(scene, from, request)});
   }
-  end_part(scene, node, request, group, mesh);
+  end_part(scene, node, group, mesh);
   const std::string name = name_of(node.mName);
   const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;
   for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], request, transform, inner, mesh);
@@ -361,6 +509,7 @@ Request take_apart(const SporeImportRequest &head, const char *rest) {
   }
   request.content = rest;
   request.size = head.size;
+  request.look = head.look;
   request.worn = head.worn;
   const char *at = request.content + head.size;
   for (const SporeImportPicture &picture : request.pictures) {
@@ -403,8 +552,10 @@ Mesh import(const char *extension, const Request &request) {
   if (!scene)
     throw Refusal{SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"), said};
   Mesh mesh;
-  mesh.placed = scene->HasTextures() || !request.pictures.empty();
+  mesh.placed = request.look != SPORE_IMPORT_SHAPE &&
+                (scene->HasTextures() || !request.pictures.empty() || scene->mNumMaterials > 1);
   if (scene->mRootNode) append(*scene, *scene->mRootNode, request, aiMatrix4x4(), "", mesh);
+  dress_all(request, mesh);
   if (mesh.triangles.empty())
     throw Refusal{SPORE_ERROR_INPUT,
                   mesh.vertices.empty()

@@ -27,19 +27,30 @@ bool spore_photograph_is(const void *content, size_t size) {
   return size > 3 && memcmp(content, "\xff\xd8\xff", 3) == 0;
 }
 
-/* Reads the head, and makes room for the pixels. */
-static unsigned char *begin(struct jpeg_decompress_struct *reader, const void *content, size_t size) {
+/* Reads the head. False: it is too large. */
+static bool begin(struct jpeg_decompress_struct *reader, const void *content, size_t size, int *width, int *height) {
   jpeg_mem_src(reader, content, size);
   jpeg_read_header(reader, TRUE);
-  if (reader->image_width > SPORE_PHOTOGRAPH_SIDE_MAXIMUM || reader->image_height > SPORE_PHOTOGRAPH_SIDE_MAXIMUM)
-    return NULL;
-  reader->out_color_space = JCS_RGB;
-  jpeg_start_decompress(reader);
-  return malloc((size_t)reader->output_width * reader->output_height * CHANNELS);
+  *width = (int)reader->image_width, *height = (int)reader->image_height;
+  return reader->image_width <= SPORE_PHOTOGRAPH_SIDE_MAXIMUM && reader->image_height <= SPORE_PHOTOGRAPH_SIDE_MAXIMUM;
 }
 
-/* The pixels; NULL: it cannot be decoded. */
-static unsigned char *decode(const void *content, size_t size, png_image *image) {
+bool spore_photograph_size(const void *content, size_t size, int *width, int *height) {
+  struct jpeg_decompress_struct reader;
+  Fault fault;
+  volatile bool done = false;
+  reader.err = jpeg_std_error(&fault.manager);
+  fault.manager.error_exit = fail;
+  fault.manager.emit_message = count_warning;
+  if (setjmp(fault.back) == 0) {
+    jpeg_create_decompress(&reader);
+    done = begin(&reader, content, size, width, height);
+  }
+  jpeg_destroy_decompress(&reader);
+  return done;
+}
+
+unsigned char *spore_photograph_pixels(const void *content, size_t size, int *width, int *height) {
   struct jpeg_decompress_struct reader;
   Fault fault;
   unsigned char *volatile pixels = NULL;
@@ -49,8 +60,11 @@ static unsigned char *decode(const void *content, size_t size, png_image *image)
   fault.manager.emit_message = count_warning;
   if (setjmp(fault.back) == 0) {
     jpeg_create_decompress(&reader);
-    pixels = begin(&reader, content, size);
-    image->width = reader.output_width, image->height = reader.output_height;
+    if (begin(&reader, content, size, width, height)) {
+      reader.out_color_space = JCS_RGB;
+      jpeg_start_decompress(&reader);
+      pixels = malloc((size_t)reader.output_width * reader.output_height * CHANNELS);
+    }
     while (pixels && reader.output_scanline < reader.output_height) {
       JSAMPROW row = pixels + (size_t)reader.output_scanline * reader.output_width * CHANNELS;
       jpeg_read_scanlines(&reader, &row, 1);
@@ -65,8 +79,10 @@ static unsigned char *decode(const void *content, size_t size, png_image *image)
 
 bool spore_photograph_convert(const void *content, size_t size, void **png, size_t *png_size) {
   png_image image = {.version = PNG_IMAGE_VERSION, .format = PNG_FORMAT_RGB};
-  unsigned char *pixels = decode(content, size, &image);
+  int width, height;
+  unsigned char *pixels = spore_photograph_pixels(content, size, &width, &height);
   if (!pixels) return false;
+  image.width = (png_uint_32)width, image.height = (png_uint_32)height;
   png_alloc_size_t room = PNG_IMAGE_PNG_SIZE_MAX(image);
   *png = malloc(room);
   bool done = *png && png_image_write_to_memory(&image, *png, &room, 0, pixels, 0, NULL);

@@ -294,8 +294,10 @@ static gboolean merge(SporeImport *import, GError **error) {
     const SporeImportBody *from = g_ptr_array_index(import->bodies, i);
     if (!spore_triangle_mesh_append(&into->mesh, &from->mesh, &failure)) return spore_error_propagate(&failure, error);
   }
-  if (into->texture && !into->untextured)
+  if (into->texture) {
+    g_free(into->untextured);
     into->untextured = g_strdup(_("merged bodies keep no picture; import it without merging"));
+  }
   drop_texture(into);
   into->changed = true;
   into->source = NULL;

@@ -7,12 +7,20 @@
 /* Corners of a face at most. Cutting a face into triangles takes work by the square of its corners. */
 #define SPORE_FACE_CORNERS_MAXIMUM 10000
 
+/* How much of the look is wanted. */
+enum {
+  SPORE_IMPORT_SHAPE,   /* no pictures */
+  SPORE_IMPORT_APART,   /* each part wears one picture */
+  SPORE_IMPORT_TOGETHER /* all parts wear one picture together */
+};
+
 /* material_count SporeImportMaterial, picture_count SporeImportPicture, the file's bytes, and the bytes of each picture
  * follow. */
 typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */
   uint64_t size;   /* of the file */
   uint64_t material_count, picture_count;
+  uint64_t look; /* SPORE_IMPORT_SHAPE ... */
   uint64_t worn; /* number from 1 of the picture that all of it wears, whatever its materials say; 0: as they say */
 } SporeImportRequest;
 
@@ -34,8 +42,10 @@ typedef struct SporeImportPicture {
 /* What a part wears. */
 enum {
   SPORE_IMPORT_BARE,
-  SPORE_IMPORT_WORN,     /* one picture */
-  SPORE_IMPORT_MIXED,    /* different pictures, or a picture on a part of it */
+  SPORE_IMPORT_WORN,     /* one picture, or one made of its pictures and colours */
+  SPORE_IMPORT_SMALLER,  /* one made of its pictures, some of which were halved to fit */
+  SPORE_IMPORT_PARTLY,   /* one made of its pictures, without some that are not there */
+  SPORE_IMPORT_MIXED,    /* more than one picture can be made of */
   SPORE_IMPORT_UNPLACED, /* a picture that its corners have no places in */
   SPORE_IMPORT_UNKNOWN   /* a picture that is not there, or too large */
 };
@@ -47,6 +57,7 @@ typedef struct SporeImportPart {
   uint32_t coloured;       /* the file says the colour */
   uint32_t dress;          /* SPORE_IMPORT_BARE ...; the colour is what the picture is multiplied by */
   uint32_t picture;        /* number of the picture from 1 where it is worn, else 0 */
+  uint32_t missing;        /* number from 1 of a picture of the request that is not part of it; 0: none */
   char name[64];           /* name of its node or mesh, cut to fit; empty: it has none */
   char group[192];         /* names of the nodes that it lies in, outermost first, between slashes; may be empty */
 } SporeImportPart;
@@ -54,7 +65,7 @@ typedef struct SporeImportPart {
 /* A picture of the answer. */
 typedef struct SporeImportTaken {
   uint64_t size;   /* of its bytes */
-  uint64_t beside; /* number from 1 of the picture of the request; 0: it is in the file itself */
+  uint64_t beside; /* number from 1 of the picture of the request; 0: it is in the file itself, or made of several */
 } SporeImportTaken;
 
 /* Pictures of an answer at most, and bytes of each. */

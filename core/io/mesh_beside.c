@@ -3,6 +3,7 @@
  */
 #include "core/io/mesh_beside.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 #include "core/io/beside.h"
@@ -41,7 +42,13 @@ void spore_mesh_beside_free(SporeMeshBeside *beside) {
 guint spore_mesh_beside_picture(SporeMeshBeside *beside, const char *file, const char *name, const char *path) {
   for (guint i = 0; i < beside->pictures->len; i++)
     if (g_str_equal(((SporeMeshPicture *)g_ptr_array_index(beside->pictures, i))->name, name)) return i + 1;
-  if (beside->pictures->len == SPORE_IMPORT_PICTURES_MAXIMUM) return 0;
+  if (beside->pictures->len == SPORE_IMPORT_PICTURES_MAXIMUM) {
+    if (!beside->reason)
+      beside->reason = g_strdup_printf(_("it names more than %d pictures, and the rest is left out; expected fewer; "
+                                         "split it, or lay some into one"),
+                                       SPORE_IMPORT_PICTURES_MAXIMUM);
+    return 0;
+  }
   g_autoptr(GError) error = NULL;
   SporeMeshPicture *picture = g_new0(SporeMeshPicture, 1);
   picture->name = g_strdup(name);

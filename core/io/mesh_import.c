@@ -56,6 +56,7 @@ typedef struct Given {
   const char *place, *file;
   const SporeMeshBeside *beside; /* NULL: nothing */
   int unit, frame;
+  guint64 look; /* SPORE_IMPORT_SHAPE ... */
 } Given;
 
 /* A picture of the file. */
@@ -97,15 +98,16 @@ static gboolean fail_answer(const char *place, GError **error) {
       _("the import helper gave a wrong answer; expected a mesh; give another format, and report this"));
 }
 
-/* The triangles of the parts must add up to the triangles that were sent. */
-static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw *raw) {
+/* The triangles of the parts must add up to the triangles that were sent. missing: highest number of a picture beside
+ * the file. */
+static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, guint missing, Raw *raw) {
   gsize triangle = 0;
   raw->parts = g_array_new(FALSE, FALSE, sizeof(SporeImportPart));
   for (guint64 p = 0; p < head->part_count; p++) {
     SporeImportPart part;
     memcpy(&part, bytes + p * sizeof part, sizeof part);
     if (part.triangle_count > head->triangle_count - triangle) return FALSE;
-    if (part.picture > head->picture_count) return FALSE;
+    if (part.picture > head->picture_count || part.missing > missing) return FALSE;
     part.name[sizeof part.name - 1] = part.group[sizeof part.group - 1] = '\0';
     g_array_append_val(raw->parts, part);
     for (guint64 t = 0; t < part.triangle_count; t++) raw->part[triangle++] = (guint32)p;
@@ -163,7 +165,8 @@ static gboolean read_answer(const Given *given, GBytes *answer, Raw *raw, GError
   raw->part = SPORE_NEW_ARRAY(guint32, head.triangle_count);
   if (!raw->part) return fail_memory(place, error);
   gsize mesh_bytes = sizeof head + part_bytes + vertex_bytes + triangle_bytes;
-  if (head.part_count > head.triangle_count || size < mesh_bytes || !read_parts(bytes + sizeof head, &head, raw) ||
+  if (head.part_count > head.triangle_count || size < mesh_bytes ||
+      !read_parts(bytes + sizeof head, &head, given->beside ? given->beside->pictures->len : 0, raw) ||
       !read_pictures(bytes + mesh_bytes, size - mesh_bytes, &head, given->beside, raw))
     return fail_answer(place, error);
   SporeError failure = SPORE_ERROR_INIT;
@@ -194,9 +197,10 @@ static void append_picture(GByteArray *request, const SporeMeshPicture *from) {
 }
 
 /* What stands before the bytes of the file. *pictures: bytes of all pictures. */
-static GByteArray *begin_request(SporeMeshFormat format, gsize size, const SporeMeshBeside *beside, gsize *pictures) {
+static GByteArray *begin_request(const Given *given, SporeMeshFormat format, gsize size, gsize *pictures) {
+  const SporeMeshBeside *beside = given->beside;
   GByteArray *request = g_byte_array_new();
-  SporeImportRequest head = {format, size};
+  SporeImportRequest head = {.format = format, .size = size, .look = given->look};
   if (beside) {
     head.material_count = beside->materials->len, head.picture_count = beside->pictures->len;
     head.worn = beside->worn;
@@ -213,9 +217,10 @@ static GByteArray *begin_request(SporeMeshFormat format, gsize size, const Spore
 }
 
 /* NULL: there is not enough memory. */
-static GBytes *make_request(SporeMeshFormat format, const void *content, gsize size, const SporeMeshBeside *beside,
+static GBytes *make_request(const Given *given, SporeMeshFormat format, const void *content, gsize size,
                             gsize *pictures) {
-  g_autoptr(GByteArray) begin = begin_request(format, size, beside, pictures);
+  const SporeMeshBeside *beside = given->beside;
+  g_autoptr(GByteArray) begin = begin_request(given, format, size, pictures);
   gsize whole = begin->len + size + *pictures;
   char *request = spore_allocate(whole, 1), *at = request;
   if (!request) return NULL;
@@ -241,7 +246,7 @@ static gboolean decode_in_helper(const Given *given, SporeMeshFormat format, con
           "install libassimp-dev and build SPORE again"),
         spore_mesh_format_names[format]);
   gsize pictures;
-  GBytes *request = make_request(format, content, size, given->beside, &pictures);
+  GBytes *request = make_request(given, format, content, size, &pictures);
   if (!request) return fail_memory(given->place, error);
   const SporeHelperLimits limits = import_limits(size, pictures);
   g_autoptr(GBytes) answer = spore_helper_run("spore-import", given->place, request, &limits, progress, error);
@@ -316,7 +321,7 @@ gboolean spore_mesh_decode_tagged(const char *place, const char *file, const voi
                                   int frame, SporeTriangleMesh *mesh, guint32 **parts, char ***names,
                                   const SporeProgress *progress, GError **error) {
   Raw raw = {0};
-  const Given given = {place, file, NULL, unit, frame};
+  const Given given = {place, file, NULL, unit, frame, SPORE_IMPORT_SHAPE};
   gboolean done = decode(&given, content, size, &raw, progress, error) && tidy(place, &raw.mesh, raw.part, error);
   *mesh = done ? raw.mesh : (SporeTriangleMesh){0};
   if (names) *names = done && raw.parts ? names_of(&raw) : NULL;
@@ -363,17 +368,37 @@ static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
   }
 }
 
-/* Why what the parts wear is not taken, from what they wear; NULL: it is, or they wear nothing. */
-static const char *why_undressed(guint32 dress) {
-  switch (dress) {
+/* Of the pictures that one was made of: what is missing. g_free. */
+static char *why_partly(const SporeMeshBeside *beside, guint32 missing) {
+  const SporeMeshPicture *picture = missing ? beside->pictures->pdata[missing - 1] : NULL;
+  if (picture && picture->reason)
+    return g_strdup_printf(_("its picture %s is left out: %s"), picture->name, picture->reason);
+  return picture
+             ? g_strdup_printf(_("its picture %s cannot be decoded, and the colour of its material stands there; "
+                                 "expected PNG or JPEG of at most 8192 pixels a side; convert the picture"),
+                               picture->name)
+             : g_strdup(_("one of its pictures is not in the file, cannot be decoded, or its corners have no places "
+                          "in it (UV), and the colour of its material stands there; expected PNG or JPEG of at most "
+                          "8192 pixels a side; export it as GLB with its pictures"));
+}
+
+/* What is to be said of what the part wears; NULL: nothing. g_free. */
+static char *said_of_dress(const SporeMeshBeside *beside, const SporeImportPart *said) {
+  switch (said->dress) {
+  case SPORE_IMPORT_SMALLER:
+    return g_strdup(_("its pictures were made smaller to lie in one of 22 million pixels; split it, or make the less "
+                      "important ones smaller first"));
+  case SPORE_IMPORT_PARTLY:
+    return why_partly(beside, said->missing);
   case SPORE_IMPORT_MIXED:
-    return _("its materials wear different pictures, or one on a part of it; expected one picture; give each picture a "
-             "mesh of its own");
+    return g_strdup(_("its materials wear several pictures or colours that cannot be laid into one; expected at most "
+                      "500 pictures, and a build of SPORE with libpng; split it, or give it fewer materials"));
   case SPORE_IMPORT_UNPLACED:
-    return _("its corners have no places in its picture (UV); expected them; unwrap the mesh, and export it again");
+    return g_strdup(
+        _("its corners have no places in its picture (UV); expected them; unwrap the mesh, and export it again"));
   case SPORE_IMPORT_UNKNOWN:
-    return _("its picture is not in the file, or is too large; expected one of at most 64 MiB; export it as GLB with "
-             "its picture");
+    return g_strdup(_("its picture is not in the file, or is too large; expected one of at most 64 MiB; export it as "
+                      "GLB with its picture"));
   default:
     return NULL;
   }
@@ -388,25 +413,6 @@ static char *why_undrawn(const RawPicture *picture) {
   return g_strdup(g_str_has_prefix(error->message, ": ") ? error->message + 2 : error->message);
 }
 
-/* Why the picture of the parts is not taken; NULL: it is, or there is none. *number: of the picture that they all wear,
- * from 1, or 0. g_free. */
-static char *why_untextured(const Raw *raw, const SporeImportPart *said, gboolean apart, guint32 *number) {
-  guint32 dress = SPORE_IMPORT_BARE;
-  gboolean alike = TRUE;
-  *number = said ? said->picture : 0;
-  for (guint p = 0; raw->parts && p < raw->parts->len; p++) {
-    const SporeImportPart *one = &g_array_index(raw->parts, SporeImportPart, p);
-    if (apart && one != said) continue;
-    if (dress == SPORE_IMPORT_BARE) dress = one->dress;
-    alike = alike && one->picture == *number;
-  }
-  if (dress == SPORE_IMPORT_BARE) return NULL;
-  if (!alike) *number = 0;
-  if (!alike) return g_strdup(_("its parts wear different pictures; split it to have a body of each"));
-  if (*number == 0) return g_strdup(why_undressed(dress));
-  return why_undrawn(&g_array_index(raw->pictures, RawPicture, *number - 1));
-}
-
 /* The places of the triangles of a part; g_free. */
 static float *places_of_part(const Raw *raw, const guint32 *pieces, guint32 number) {
   float *places = g_new(float, 6 * raw->mesh.triangle_count + 1);
@@ -416,36 +422,37 @@ static float *places_of_part(const Raw *raw, const guint32 *pieces, guint32 numb
   return places;
 }
 
-/* Lays the picture over the part once the part is tidy. rough: the mesh before that. */
-static gboolean take_texture(const Raw *raw, guint32 picture, const SporeTriangleMesh *rough, const float *places,
-                             SporeMeshPart *part, SporeError *failure) {
-  part->places = spore_texture_places_transfer(rough, places, &part->mesh, failure);
-  if (part->places && !part->untextured)
-    part->picture = g_bytes_ref(g_array_index(raw->pictures, RawPicture, picture - 1).content);
-  return part->places != NULL;
+/* Takes the picture that the part wears, or why it has none. said: NULL: nothing. */
+static void take_picture_of(const Raw *raw, const SporeMeshBeside *beside, const SporeImportPart *said,
+                            SporeMeshPart *part) {
+  const RawPicture *picture =
+      said && said->picture ? &g_array_index(raw->pictures, RawPicture, said->picture - 1) : NULL;
+  if (picture) part->untextured = why_undrawn(picture);
+  if (picture && !part->untextured) part->picture = g_bytes_ref(picture->content);
+  if (said && !part->untextured) part->untextured = said_of_dress(beside, said);
+  if (part->untextured && !part->picture) part->coloured = false; /* the colour alone says little */
 }
 
 /* The part of that number; `pieces` NULL: the whole mesh. NULL with an error. */
-static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
+static SporeMeshPart *take_part(const Given *given, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
   SporeMeshPart *part = g_new0(SporeMeshPart, 1);
   SporeError failure = SPORE_ERROR_INIT;
   SporeTriangleMesh rough = {0};
-  guint32 picture;
   const SporeImportPart *said = said_of(raw, pieces != NULL, number);
   part->name = g_utf8_make_valid(said && pieces ? said->name : "", -1);
   part->group = g_utf8_make_valid(said && pieces ? said->group : "", -1);
-  part->untextured = why_untextured(raw, said, pieces != NULL, &picture);
   take_colour(said, part);
-  if (part->untextured) part->coloured = false; /* the colour alone says little */
-  g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
+  take_picture_of(raw, given->beside, said, part);
+  g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", given->place, part->name) : g_strdup(given->place);
   gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* validated before its indices are used */
-  g_autofree float *places = done && picture ? places_of_part(raw, pieces, number) : NULL;
+  g_autofree float *places = done && said && said->picture ? places_of_part(raw, pieces, number) : NULL;
   if (done && pieces) done = spore_triangle_mesh_extract(&raw->mesh, pieces, number, &part->mesh, &failure);
   else if (done) part->mesh = raw->mesh, raw->mesh = (SporeTriangleMesh){0};
   if (done && places) done = spore_triangle_mesh_copy(&rough, &part->mesh, &failure);
   if (done) {
     done = spore_mesh_tidy(where, &part->mesh, error);
-    if (done && places && !take_texture(raw, picture, &rough, places, part, &failure))
+    if (done && places) part->places = spore_texture_places_transfer(&rough, places, &part->mesh, &failure);
+    if (done && places && !part->places)
       done = (spore_error_at(&failure, where), spore_error_propagate(&failure, error));
   } else {
     spore_error_at(&failure, where);
@@ -461,7 +468,7 @@ GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize 
                                    int unit, int frame, gboolean apart, guint *count, const SporeProgress *progress,
                                    GError **error) {
   Raw raw = {0};
-  const Given given = {file, file, beside, unit, frame};
+  const Given given = {file, file, beside, unit, frame, apart ? SPORE_IMPORT_APART : SPORE_IMPORT_TOGETHER};
   g_autoptr(GPtrArray) parts = g_ptr_array_new_with_free_func((GDestroyNotify)spore_mesh_part_free);
   gboolean done = decode(&given, content, size, &raw, progress, error);
   *count = raw.parts ? raw.parts->len : 1;
@@ -471,7 +478,7 @@ GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize 
                              _("the file has %u parts; expected at most %u bodies; import it as one"), *count,
                              SPORE_MESH_PARTS_MAXIMUM);
   for (guint p = 0; done && p < (several ? *count : 1); p++) {
-    SporeMeshPart *part = take_part(file, &raw, several ? raw.part : NULL, p, error);
+    SporeMeshPart *part = take_part(&given, &raw, several ? raw.part : NULL, p, error);
     if (part) g_ptr_array_add(parts, part);
     done = part != NULL;
   }

@@ -42,11 +42,12 @@ typedef struct SporeMeshPart {
   double colour[3]; /* base colour of its material, sRGB from 0 to 1; of joined parts: of the largest */
   bool coloured;    /* the file says the colour */
   SporeTriangleMesh mesh;
-  GBytes *picture;  /* PNG that all of it wears (core/scene/texture.h); NULL: none */
+  GBytes *picture;  /* PNG that all of it wears (core/scene/texture.h), made of its pictures and colours where it has
+                       several materials; NULL: none */
   float *places;    /* of the corners of the mesh's triangles in the picture, also in one that cannot be read, x 3 x 2;
                        spore_free; NULL: it wears none */
-  char *untextured; /* why a picture that the file brings is not taken, translated; NULL: it brings none, or it is taken
-                     */
+  char *untextured; /* what of its pictures is not taken as the file brings it, and why: "what; remedy", translated;
+                       NULL: nothing */
 } SporeMeshPart;
 void spore_mesh_part_free(SporeMeshPart *part);
 #define SPORE_MESH_PARTS_MAXIMUM 500u
