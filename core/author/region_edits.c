@@ -14,6 +14,7 @@
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4
 #define RING_SEGMENTS 48
+#define CROSS_PART 0.3 /* of a dab's radius: half of its cross */
 #define NOTHING_M 1e-7 /* smaller differences are rounding */
 
 static gboolean set_numbers(SporeDocument *document, SporeObject *object, const char *property, const double *numbers,
@@ -192,27 +193,47 @@ gboolean spore_edit_place_region(SporeDocument *document, SporeObject *region, c
   return spore_edit_finish(document, set_ball(document, region, centre, radius, error));
 }
 
-static void add_ring(double *segments, SporeVec3 centre, double radius, int axis) {
-  for (int i = 0; i < 2 * RING_SEGMENTS; i++) {
-    double angle = 2 * G_PI * ((i + 1) / 2) / RING_SEGMENTS, point[3] = {centre.x, centre.y, centre.z};
-    point[(axis + 1) % 3] += radius * cos(angle);
-    point[(axis + 2) % 3] += radius * sin(angle);
-    memcpy(segments + 3 * i, point, sizeof point);
+static void add_segment(GArray *segments, SporeVec3 from, SporeVec3 to) {
+  double segment[6];
+  spore_vec3_store(segment, from);
+  spore_vec3_store(segment + 3, to);
+  g_array_append_val(segments, segment);
+}
+
+static SporeVec3 along(SporeVec3 centre, int axis, double way) {
+  double place[3];
+  spore_vec3_store(place, centre);
+  place[axis % 3] += way;
+  return spore_vec3_load(place);
+}
+
+static SporeVec3 on_ring(SporeVec3 centre, double radius, int axis, int step) {
+  double angle = 2 * G_PI * step / RING_SEGMENTS;
+  return along(along(centre, axis + 1, radius * cos(angle)), axis + 2, radius * sin(angle));
+}
+
+static void mark_ball(GArray *segments, const double ball[4], gboolean dab) {
+  SporeVec3 centre = spore_vec3_load(ball);
+  for (int axis = 0; axis < 3; axis++) {
+    if (dab)
+      add_segment(segments, along(centre, axis, -CROSS_PART * ball[3]), along(centre, axis, CROSS_PART * ball[3]));
+    for (int i = 0; !dab && i < RING_SEGMENTS; i++)
+      add_segment(segments, on_ring(centre, ball[3], axis, i), on_ring(centre, ball[3], axis, i + 1));
   }
 }
 
-double *spore_region_rings(const SporeObject *holder, gsize *count) {
+double *spore_region_marks(const SporeObject *holder, gsize *count) {
   const char *element = spore_region_element(spore_object_type(holder));
-  guint regions = element ? spore_object_child_count(holder) : 0;
-  *count = 3 * (gsize)regions * RING_SEGMENTS;
-  double *segments = g_new(double, 6 * *count);
-  for (guint i = 0; i < regions; i++) {
-    double ball[4];
-    spore_region_read_ball(spore_object_child(holder, i), ball);
-    for (int axis = 0; axis < 3; axis++)
-      add_ring(segments + 6 * RING_SEGMENTS * (3 * i + (guint)axis), spore_vec3_load(ball), ball[3], axis);
+  GArray *segments = g_array_new(FALSE, FALSE, 6 * sizeof(double));
+  for (guint i = 0; element && i < spore_object_child_count(holder); i++) {
+    const SporeObject *region = spore_object_child(holder, i);
+    guint balls = spore_region_ball_count(region);
+    g_autofree double *all = g_new(double, 4 * balls);
+    spore_region_read_balls(region, all);
+    for (guint b = 0; b < balls; b++) mark_ball(segments, all + 4 * b, balls > 1);
   }
-  return segments;
+  *count = segments->len;
+  return (double *)(void *)g_array_free(segments, FALSE);
 }
 
 /* Facts. */

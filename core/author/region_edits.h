@@ -24,9 +24,9 @@ gboolean spore_edit_remove_region(SporeDocument *document, const char *path, GEr
 /* Sets centre (body's frame, m) and radius (m), where they are given and differ. */
 gboolean spore_edit_place_region(SporeDocument *document, SporeObject *region, const double centre[3], double radius,
                                  GError **error);
-/* Rings around the balls of the regions that the object holds, their dabs left out; body's frame: segments of 2 points
- * of 3. g_free; *count segments. */
-double *spore_region_rings(const SporeObject *holder, gsize *count);
+/* Rings around the regions that the object holds, and crosses in the dabs of those that are painted; body's frame:
+ * segments of 2 points of 3. g_free; *count segments. */
+double *spore_region_marks(const SporeObject *holder, gsize *count);
 /* With how many dabs it is painted, and how many of the body's tetrahedra it holds, in words; NULL: neither. g_free. */
 char *spore_region_facts(SporeDocument *document, const SporeObject *region);
 

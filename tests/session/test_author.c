@@ -288,6 +288,10 @@ static void test_painted_region(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_region_ball_count(region), ==, 3);
   g_autofree char *facts = spore_region_facts(fixture->document, region);
   g_assert_cmpstr(facts, ==, "Painted with 2 dabs. Holds 1 of 1 tetrahedra.");
+  gsize count;
+  g_autofree double *crosses = spore_region_marks(spore_object_parent(region), &count);
+  g_assert_cmpuint(count, ==, 3 * 3);
+  g_assert_cmpfloat_with_epsilon(crosses[3] - crosses[0], 2 * 0.3 * 0.02, 1e-12);
   g_autofree char *text = text_of(fixture);
   g_assert_nonnull(strstr(text, "<dab centre=\"0.011 0.01 0.01\" radius=\"0.005\"/>"));
   g_assert_true(spore_edit_paint_region(fixture->document, region, balls, 1, &error));
@@ -319,7 +323,7 @@ static void test_regions(Fixture *fixture, gconstpointer data) {
   assert_one_step(fixture, before);
   body = spore_document_by_path(fixture->document, "bodies/my_organ");
   g_assert_nonnull(spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", &error));
-  g_autofree double *rings = spore_region_rings(spore_object_child_of(body, "regions"), &count);
+  g_autofree double *rings = spore_region_marks(spore_object_child_of(body, "regions"), &count);
   g_assert_cmpuint(count, ==, 2 * 3 * 48);
   double radius =
       spore_object_number(spore_document_by_path(fixture->document, "bodies/my_organ/regions/region"), "radius");

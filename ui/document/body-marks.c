@@ -1,4 +1,4 @@
-/* Marks on a body: rings around its regions, and a cross at the worst place of its mapping. */
+/* Marks on a body: of its regions, and a cross at the worst place of its mapping. */
 #include "ui/document/body-marks.h"
 
 #include "core/author/generated_edits.h"
@@ -10,9 +10,9 @@ static void append_segments(GArray *all, const double *segments, gsize count) {
   if (count) g_array_append_vals(all, segments, (guint)(6 * count));
 }
 
-static void append_rings(GArray *all, const SporeObject *holder) {
+static void append_marks(GArray *all, const SporeObject *holder) {
   gsize count = 0;
-  g_autofree double *segments = holder ? spore_region_rings(holder, &count) : NULL;
+  g_autofree double *segments = holder ? spore_region_marks(holder, &count) : NULL;
   append_segments(all, segments, count);
 }
 
@@ -30,9 +30,9 @@ static void append_worst(GArray *all, const SporeMappingReport *report) {
 
 double *spore_body_marks(SporeDocument *document, SporeObject *body, const SporeMappingReport *report, gsize *count) {
   GArray *all = g_array_new(FALSE, FALSE, sizeof(double));
-  append_rings(all, spore_object_child_of(body, "regions"));
-  append_rings(all, spore_edit_body_spheres(document, body));
-  append_rings(all, spore_edit_body_tetrahedra(document, body));
+  append_marks(all, spore_object_child_of(body, "regions"));
+  append_marks(all, spore_edit_body_spheres(document, body));
+  append_marks(all, spore_edit_body_tetrahedra(document, body));
   if (spore_mapping_report_holds(report, document, body)) append_worst(all, report);
   *count = all->len / 6;
   return (double *)(void *)g_array_free(all, FALSE);

@@ -4,8 +4,9 @@
 
 #include "ui/document/mapping-report.h"
 
-/* Rings around the regions of the body, its spheres and its tetrahedra; and a cross at the worst place of the mapping,
- * where the report is up to date. Segments of 2 points of 3 in the body's axes, m. g_free; *count segments. */
+/* Those of the regions of the body, its spheres and its tetrahedra (spore_region_marks); and a cross at the worst place
+ * of the mapping, where the report is up to date. Segments of 2 points of 3 in the body's axes, m. g_free; *count
+ * segments. */
 double *spore_body_marks(SporeDocument *document, SporeObject *body, const SporeMappingReport *report, gsize *count);
 
 #endif
