@@ -75,13 +75,23 @@ SporeObject *spore_edit_add(SporeDocument *document, const char *path, GError **
   return spore_edit_finish(document, added != NULL) ? added : NULL;
 }
 
+/* The type of the object of that path; or of the unit that a body would have there. NULL: neither. */
+static const SporeObjectType *type_of_place(SporeDocument *document, const char *path) {
+  const SporeObject *object = spore_document_by_path(document, path);
+  const char *slash = strrchr(path, '/');
+  if (object) return spore_object_type(object);
+  if (!slash) return NULL;
+  g_autofree char *above = g_strndup(path, (gsize)(slash - path));
+  const SporeObject *parent = spore_document_by_path(document, above);
+  return parent ? spore_object_type_child(spore_object_type(parent), slash + 1) : NULL;
+}
+
 char *spore_edit_addition_for(SporeDocument *document, const char *path) {
   const char *slash = strrchr(path, '/');
   if (!slash || !slash[1]) return NULL;
   g_autofree char *place = g_strndup(path, (gsize)(slash - path));
-  const SporeObject *parent = spore_document_by_path(document, place);
-  if (!parent) return spore_edit_addition_for(document, place);
-  const SporeObjectType *type = spore_object_type(parent);
+  const SporeObjectType *type = type_of_place(document, place);
+  if (!type) return spore_edit_addition_for(document, place);
   if (spore_object_type_child(type, slash + 1)) return g_strdup(path);
   if (!type->children || type->children->len == 0 || !is_nameable(type->children->pdata[0])) return NULL;
   g_autofree char *list = elements_of(type, "|");

@@ -332,7 +332,7 @@ def authoring_commands_refuse_what_they_cannot_do():
                         ("bodies/ball/fidelity:x", 'without ":x"')):
         refuses("edit", scene, "--add", wrong, says=(says,))
     refuses("edit", scene, "--set", "links/cord/stiffness=3", says=("spore edit --add 'links/", "spring|", ":cord'"))
-    refuses("edit", scene, "--set", "bodies/ball/fidelity/coarse/settings=x", says=("spore edit --add 'bodies/ball/fidelity'",))
+    refuses("edit", scene, "--set", "bodies/ball/fidelity/coarse/settings=x", says=("spore edit --add 'bodies/ball/fidelity/coarse'",))
     refuses("edit", scene, "--set", "nothing/at/all=3", says=("bodies/NAME/collision",))
     refuses("import", "ball.off", "--add", "-o", WORK / "authored" / "absent.spore", says=("absent.spore", "no such file"))
     assert scene.read_text() == before
