@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <assimp/DefaultLogger.hpp>
+#include <assimp/GltfMaterial.h>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/importerdesc.h>
@@ -119,6 +120,7 @@ struct Look {
   Source source;
   float colour[3] = {1, 1, 1}; /* sRGB; white where the file says none, as OBJ and glTF have it */
   bool coloured = false;       /* the file says it */
+  float opacity = 1;
   uint32_t dress = SPORE_IMPORT_BARE;
   bool operator==(const Look &other) const {
     return source == other.source && dress == other.dress && coloured == other.coloured &&
@@ -171,11 +173,12 @@ const SporeImportMaterial *described(const aiScene &scene, const aiMesh &mesh, c
   return nullptr;
 }
 
-/* Takes the colour that the material of the mesh says. */
+/* Takes the colour and the opacity that the material of the mesh says. */
 void take_colour(const aiScene &scene, const aiMesh &mesh, const Request &request, Look &look) {
   if (const SporeImportMaterial *said = described(scene, mesh, request)) {
     if (said->coloured) std::copy(said->colour, said->colour + 3, look.colour);
     look.coloured = said->coloured;
+    if (said->opacity > 0) look.opacity = said->opacity;
     return;
   }
   const aiMaterial *material = material_of(scene, mesh);
@@ -186,6 +189,10 @@ void take_colour(const aiScene &scene, const aiMesh &mesh, const Request &reques
   std::transform(light, light + 3, look.colour,
                  [](float one) { return static_cast<float>(spore_srgb(std::min(std::max(one, 0.0f), 1.0f))); });
   look.coloured = true;
+  aiString mode;
+  if (material->Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS && std::strcmp(mode.C_Str(), "BLEND") == 0 &&
+      colour.a > 0 && colour.a < 1)
+    look.opacity = colour.a;
 }
 
 /* The name of the picture, whose signs may be written as codes. */
@@ -254,7 +261,8 @@ Look look_of(const aiScene &scene, const aiMesh &mesh, const Request &request) {
   return look;
 }
 
-/* The meshes of a node differ only in material. Together they are one part, whose colour is that of most of it. */
+/* The meshes of a node differ only in material. Together they are one part, whose colour and opacity are those of most
+ * of it. */
 void end_part(const aiScene &scene, const aiNode &node, const std::string &group, Mesh &mesh) {
   SporeImportPart part = {};
   part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
@@ -269,6 +277,7 @@ void end_part(const aiScene &scene, const aiNode &node, const std::string &group
     if (range.part == mesh.parts.size() && (!largest || range.count > largest->count)) largest = &range;
   std::copy(largest->look.colour, largest->look.colour + 3, part.colour);
   part.coloured = largest->look.coloured;
+  part.opacity = largest->look.opacity;
   mesh.parts.push_back(part);
 }
 

@@ -103,6 +103,7 @@ static void add_body(Intake *intake, const char *name, const SporeImportFile *so
   body->name = g_strdup(name);
   body->group = g_strdup(part ? part->group : "");
   body->coloured = part && part->coloured;
+  body->opacity = part ? part->opacity : 1;
   if (part) memcpy(body->colour, part->colour, sizeof body->colour);
   body->texture = texture ? g_rc_box_acquire(texture) : NULL;
   body->untextured = g_strdup(part ? part->untextured : NULL);
@@ -348,9 +349,14 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
   return g_steal_pointer(&import);
 }
 
-/* Draws the body in the colour that the file gives it. */
+/* Draws the body in the colour and with the opacity that the file gives it. */
 static gboolean paint(SporeDocument *document, SporeObject *made, const SporeImportBody *body, GError **error) {
-  return !body->coloured || spore_edit_set_colour(document, made, body->colour, error);
+  if (body->coloured && !spore_edit_set_colour(document, made, body->colour, error)) return FALSE;
+  if (body->opacity >= 1) return TRUE;
+  char opacity[G_ASCII_DTOSTR_BUF_SIZE];
+  g_ascii_formatd(opacity, sizeof opacity, "%.3g", body->opacity);
+  SporeObject *visual = spore_edit_child_or_new(document, made, "visual", error);
+  return visual && spore_document_set_text(document, visual, "opacity", opacity, error);
 }
 
 static char *keep(SporeDocument *document, const SporeImportBody *body, const char *extension, GBytes *content) {

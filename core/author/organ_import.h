@@ -53,6 +53,7 @@ typedef struct SporeImportBody {
   const SporeImportFile *source; /* NULL: several */
   double colour[3];              /* as SporeMeshPart.colour */
   bool coloured;
+  double opacity;              /* as SporeMeshPart.opacity */
   SporeImportTexture *texture; /* NULL: none */
   float *places;               /* then of the corners of the mesh's triangles, x 3 x 2 */
   char *untextured;            /* as SporeMeshPart.untextured */

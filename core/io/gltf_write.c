@@ -177,13 +177,13 @@ static guint add_picture(Writer *writer, GBytes *picture) {
 }
 
 static void add_material(Writer *writer, const SporeNamedSurface *surface) {
-  double colour[4] = {0, 0, 0, 1};
+  double colour[4] = {0, 0, 0, surface->opacity};
   for (int k = 0; k < 3; k++) colour[k] = spore_linear_light(surface->colour[k]);
   separate(writer->materials);
   g_string_append_printf(writer->materials,
-                         "{\"name\":\"%s\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+                         "{\"name\":\"%s\",\"doubleSided\":true,%s\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
                          "\"roughnessFactor\":",
-                         surface->name);
+                         surface->name, surface->opacity < 1 ? "\"alphaMode\":\"BLEND\"," : "");
   append_number(writer->materials, ROUGHNESS_DRY + (ROUGHNESS_WET - ROUGHNESS_DRY) * surface->wetness);
   g_string_append(writer->materials, ",\"baseColorFactor\":[");
   append_numbers(writer->materials, colour, 4);

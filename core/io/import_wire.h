@@ -28,6 +28,7 @@ typedef struct SporeImportRequest {
 typedef struct SporeImportMaterial {
   float colour[3];           /* sRGB from 0 to 1; used where coloured */
   uint32_t coloured;         /* the file says the colour */
+  float opacity;             /* 0 to 1; 0: the file does not say it */
   uint32_t picture;          /* number of the picture from 1; 0: it wears none */
   float scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
   char name[128];            /* cut to fit */
@@ -55,6 +56,7 @@ typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
   float colour[3];         /* the base colour of its material, sRGB from 0 to 1; used where coloured */
   uint32_t coloured;       /* the file says the colour */
+  float opacity;           /* 0 to 1 */
   uint32_t dress;          /* SPORE_IMPORT_BARE ...; the colour is what the picture is multiplied by */
   uint32_t picture;        /* number of the picture from 1 where it is worn, else 0 */
   uint32_t missing;        /* number from 1 of a picture of the request that is not part of it; 0: none */

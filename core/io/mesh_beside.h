@@ -17,6 +17,7 @@ typedef struct SporeMeshMaterial {
   char *name;
   double colour[3];           /* sRGB, 0 to 1 */
   bool coloured;              /* the file says the colour */
+  double opacity;             /* 0 to 1; 0: the file does not say it */
   guint picture;              /* number in `pictures`, from 1; 0: none */
   double scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
 } SporeMeshMaterial;
@@ -45,7 +46,7 @@ guint spore_mesh_beside_picture(SporeMeshBeside *beside, const char *file, const
 char *spore_mesh_beside_reason(const char *file, const GError *error);
 /* Reads the texts of materials that the text of an OBJ names. */
 void spore_mesh_beside_materials(SporeMeshBeside *beside, const char *file, const char *text, gsize size);
-/* Reads such a text (Wavefront MTL: newmtl, Kd and map_Kd). folder: that its pictures are named from, "" or with a
+/* Reads such a text (Wavefront MTL: newmtl, Kd, d and map_Kd). folder: that its pictures are named from, "" or with a
  * slash at its end. */
 void spore_mesh_beside_describe(SporeMeshBeside *beside, const char *file, const char *folder, const char *text,
                                 gsize size);

@@ -183,7 +183,8 @@ static gboolean read_answer(const Given *given, GBytes *answer, Raw *raw, GError
 }
 
 static void append_material(GByteArray *request, const SporeMeshMaterial *from) {
-  SporeImportMaterial material = {.coloured = from->coloured, .picture = from->picture};
+  SporeImportMaterial material = {
+      .coloured = from->coloured, .picture = from->picture, .opacity = (float)from->opacity};
   for (int k = 0; k < 3; k++) material.colour[k] = (float)from->colour[k];
   for (int k = 0; k < 2; k++) material.scale[k] = (float)from->scale[k], material.offset[k] = (float)from->offset[k];
   g_strlcpy(material.name, from->name, sizeof material.name);
@@ -359,9 +360,10 @@ static const SporeImportPart *said_of(const Raw *raw, gboolean apart, guint32 nu
   return said;
 }
 
-/* The helper is not trusted: a colour that is none is left out. */
+/* The helper is not trusted: a colour or an opacity that is none is left out. */
 static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
   part->coloured = said && said->coloured;
+  part->opacity = said && said->opacity > 0 && said->opacity < 1 ? (double)said->opacity : 1;
   for (int k = 0; k < 3 && said; k++) {
     part->colour[k] = said->colour[k];
     if (!(said->colour[k] >= 0 && said->colour[k] <= 1)) part->coloured = false;

@@ -41,6 +41,7 @@ typedef struct SporeMeshPart {
   char *group;      /* names of the nodes that it lies in, outermost first, between slashes; "": there are none */
   double colour[3]; /* base colour of its material, sRGB from 0 to 1; of joined parts: of the largest */
   bool coloured;    /* the file says the colour */
+  double opacity;   /* of its material, more than 0, to 1; of several materials, of most of it */
   SporeTriangleMesh mesh;
   GBytes *picture;  /* PNG that all of it wears (core/scene/texture.h), made of its pictures and colours where it has
                        several materials; NULL: none */

@@ -104,11 +104,21 @@ static void read_colour(SporeMeshMaterial *material, const char *text) {
   material->coloured = true;
 }
 
+/* d with a number; "-halo" before it says that it holds at the middle alone, and is passed over. One that nothing is
+ * seen of is not meant. */
+static void read_opacity(SporeMeshMaterial *material, const char *text) {
+  if (g_str_has_prefix(text, "-halo")) text = behind_word(text);
+  if (!is_number(text)) return;
+  double number = g_ascii_strtod(text, NULL);
+  if (number > 0) material->opacity = MIN(number, 1);
+}
+
 /* One line of a material, or the beginning of the next one. folder: that pictures are named from, "" or with a slash.
  */
 static void read_line(SporeMeshBeside *beside, const char *file, const char *folder, const char *line,
                       SporeMeshMaterial **material) {
   const char *name = behind(line, "newmtl"), *colour = behind(line, "Kd"), *picture = behind(line, "map_Kd");
+  const char *opacity = behind(line, "d");
   if (name && beside->materials->len < MOST_MATERIALS) {
     *material = g_new0(SporeMeshMaterial, 1);
     (*material)->name = g_strdup(name);
@@ -116,6 +126,7 @@ static void read_line(SporeMeshBeside *beside, const char *file, const char *fol
     g_ptr_array_add(beside->materials, *material);
   }
   if (colour && *material) read_colour(*material, colour);
+  if (opacity && *material) read_opacity(*material, opacity);
   if (!picture || !*material) return;
   g_autofree char *named = path_of(behind_options(picture, *material)), *path = g_strconcat(folder, named, NULL);
   (*material)->picture = spore_mesh_beside_picture(beside, file, path, path);

@@ -65,6 +65,10 @@ char *spore_mtl_format(const SporeNamedSurface *surfaces, gsize count, char *con
   for (gsize s = 0; s < count; s++) {
     g_string_append_printf(text, "newmtl %s\nKd ", surfaces[s].name);
     spore_append_reals(text, surfaces[s].colour, 1, 3, "");
+    if (surfaces[s].opacity < 1) {
+      g_string_append(text, "d ");
+      spore_append_reals(text, &surfaces[s].opacity, 1, 1, "");
+    }
     if (pictures[s]) g_string_append_printf(text, "map_Kd %s\n", pictures[s]);
   }
   *size = text->len;

@@ -29,6 +29,7 @@ typedef struct SporeDrawnPart {
   gboolean smoke;   /* of points: drawn as puffs */
   double colour[3]; /* sRGB, 0..1 */
   double wetness;   /* 0..1 */
+  double opacity;   /* 0..1 */
 
   /* At the moment of the last spore_drawing_update. */
   SporePose frame;                /* of a framed part */

@@ -32,6 +32,7 @@ static SporeDrawnPart *add_part(Body *body, SporePartKind kind) {
                          .shows = !body->shown,
                          .moves = spore_world_body_role(world, body->index) != SPORE_UNMOVABLE,
                          .wetness = body->visual.wetness,
+                         .opacity = body->visual.opacity,
                          .source = g_new0(SporePartSource, 1)};
   memcpy(part.colour, body->visual.colour, sizeof part.colour);
   part.source->corner_start = SIZE_MAX;
@@ -151,7 +152,7 @@ gboolean spore_drawing_add_body(SporeDrawing *drawing, guint32 index, GError **e
                .index = index,
                .object = spore_document_by_id(drawing->document, simulation->body_object[index]),
                .model = spore_world_lod_model(simulation->world, index, SPORE_LOD_FINE),
-               .visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5}};
+               .visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5, .opacity = 1}};
   const SporeObject *visual = spore_object_child_of(body.object, "visual");
   if (visual) spore_object_fields(visual, &body.visual);
   return add_parts(&body, error);

@@ -406,20 +406,23 @@ def places_of(scene):
 
 @check
 def pictures_come_back(*_):
-    """OBJ and glTF hold the picture on a body and its places; imported again both are the same; PLY says that it loses the picture"""
+    """OBJ and glTF hold the picture on a body, its places and its opacity; imported again all are the same; PLY says that it loses them"""
     if "assimp" not in FEATURES:
         raise Skip("built without assimp")
     scene, picture = import_worn(FOLDER / "worn")
     _, places = places_of(scene)
     assert ElementTree.parse(scene).find(".//visual").get("colour") == "1 1 1"
+    run(SPORE, "edit", scene, "--set", "bodies/worn/visual/opacity=0.4")
     for form in ("obj", "glb"):
         report = export(scene.with_suffix(""), {"obj": "obj", "glb": "gltf"}[form], FOLDER / f"worn.{form}")
-        assert not any("picture" in sentence for sentence in report["lost"]), report["lost"]
+        assert not any("picture" in sentence or "opacity" in sentence for sentence in report["lost"]), report["lost"]
         run(SPORE, "import", FOLDER / f"worn.{form}", "-o", FOLDER / form / "again.spore")
         kept, again = places_of(FOLDER / form / "again.spore")
+        assert ElementTree.parse(FOLDER / form / "again.spore").find(".//visual").get("opacity") == "0.4", form
         assert kept == picture and len(again) == len(places) and all(abs(a - b) < 1e-5 for a, b in zip(places, again)), form
     assert (FOLDER / "worn-worn.png").read_bytes() == picture
-    assert any("picture on its surface" in sentence for sentence in export(scene.with_suffix(""), "ply", FOLDER / "worn.ply")["lost"])
+    lost = export(scene.with_suffix(""), "ply", FOLDER / "worn.ply")["lost"]
+    assert all(any(word in sentence for sentence in lost) for word in ("picture on its surface", "opacity")), lost
     export(scene.with_suffix(""), "gltf", FOLDER / "falling.glb", "--time", "0.02", "--every", "0.01")
     film = Film(FOLDER / "falling.glb")
     mesh = film.mesh("worn")

@@ -55,6 +55,7 @@ static void check_beside(GBytes *given) {
     const SporeMeshMaterial *material = beside->materials->pdata[i];
     g_assert_cmpuint(material->picture, <=, beside->pictures->len);
     for (int k = 0; k < 3; k++) g_assert_true(material->colour[k] >= 0 && material->colour[k] <= 1);
+    g_assert_true(material->opacity >= 0 && material->opacity <= 1);
   }
 }
 

@@ -31,9 +31,9 @@ typedef gboolean (*SporeExportMoment)(gpointer data, const SporeDrawing *drawing
 gboolean spore_export_show(SporeExport *export, SporeExportMoment moment, gpointer data, GError **error);
 /* Adds the sections of the scene that no other program knows: tools, devices, exercise and so on. links: these too. */
 void spore_export_lose_sections(SporeExport *export, gboolean links);
-/* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours, pictures: the format has
- * these. */
-void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean pictures);
+/* Adds what no picture of a scene holds: links, tools, how bodies move, and so on. colours: the format has these;
+ * materials: it has pictures and opacity as well. */
+void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean materials);
 /* What the part looks like, without its mesh: with its picture and the places of its triangles, where it has them. */
 SporeNamedSurface spore_export_surface(const SporeDrawnPart *part);
 

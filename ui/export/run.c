@@ -82,16 +82,16 @@ static void lose_textures(SporeExport *export, gboolean pictures) {
   }
 }
 
-void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean pictures) {
+void spore_export_lose_physics(SporeExport *export, gboolean colours, gboolean materials) {
   spore_export_lose_sections(export, TRUE);
   spore_export_lose(export, g_strdup(_("how bodies move and touch: models, materials, collision spheres, gravity")));
   if (!colours) spore_export_lose(export, g_strdup(_("colours and wetness")));
-  lose_opacity(export);
-  lose_textures(export, pictures);
+  if (!materials) lose_opacity(export);
+  lose_textures(export, materials);
 }
 
 SporeNamedSurface spore_export_surface(const SporeDrawnPart *part) {
-  SporeNamedSurface surface = {.name = g_intern_string(part->name), .wetness = part->wetness};
+  SporeNamedSurface surface = {.name = g_intern_string(part->name), .wetness = part->wetness, .opacity = part->opacity};
   memcpy(surface.colour, part->colour, sizeof surface.colour);
   if (!part->picture || !part->element_count) return surface;
   surface.picture = g_bytes_ref(part->picture);

@@ -40,7 +40,7 @@ static gboolean take_surfaces(gpointer data, const SporeDrawing *drawing, double
 /* Writes what was taken. */
 typedef gboolean (*SurfaceWriter)(SporeExport *export, const SporeNamedSurface *all, gsize count, GError **error);
 
-static gboolean write_surfaces(SporeExport *export, SurfaceWriter write, gboolean colours, gboolean pictures,
+static gboolean write_surfaces(SporeExport *export, SurfaceWriter write, gboolean colours, gboolean materials,
                                GError **error) {
   Surfaces surfaces = {export, g_array_new(FALSE, FALSE, sizeof(SporeNamedSurface))};
   g_array_set_clear_func(surfaces.all, (GDestroyNotify)spore_named_surface_clear);
@@ -49,7 +49,7 @@ static gboolean write_surfaces(SporeExport *export, SurfaceWriter write, gboolea
   done = done && write(export, (const SporeNamedSurface *)(gconstpointer)surfaces.all->data, surfaces.all->len, error);
   g_array_unref(surfaces.all);
   spore_export_lose(export, g_strdup(_("motion: one moment is shown, without velocities")));
-  spore_export_lose_physics(export, colours, pictures);
+  spore_export_lose_physics(export, colours, materials);
   return done;
 }
 
