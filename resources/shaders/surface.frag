@@ -8,6 +8,7 @@ in float v_mottle, v_value, v_stain;
 uniform vec3 colour;
 uniform float wetness;
 uniform float clearness; // how much is seen of what lies behind
+uniform vec4 mixture;    // colour and clearness of what a liquid is mixed with
 uniform float cell;     // size of a pattern cell, m
 uniform float selected; // 0 or 1
 uniform int material;   // SporeMaterial
@@ -49,6 +50,11 @@ float soaked(float unevenness) {
   return smoothstep(0.04, 0.8, v_stain * (1.25 + unevenness));
 }
 
+// Each liquid takes its share of the light that comes through both (Beer and Lambert).
+vec3 mixed(vec3 base) {
+  return v_stain > 0.0 ? exp(mix(log(base + 1e-3), log(mixture.rgb + 1e-3), v_stain)) : base;
+}
+
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
@@ -61,7 +67,7 @@ void main() {
   if (v_value >= 0.0) {
     outcome = shade_plain(scale_colour(v_value), v_position, normal);
   } else if (material == 2) {
-    outcome = shade_tissue(base, wetness, v_position, normal, normal, open, lit);
+    outcome = shade_tissue(mixed(base), wetness, v_position, normal, normal, open, lit);
   } else if (material == 1) {
     vec3 across = v_rest - axis * dot(v_rest, axis);
     vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
@@ -98,7 +104,8 @@ void main() {
   outcome += selected * vec3(0.10, 0.42, 1.0) * (0.04 + 0.9 * rim * rim * rim);
   // Through water one sees less at a low angle, and nothing behind a glint.
   float glint = smoothstep(0.9, 2.0, max(outcome.r, max(outcome.g, outcome.b)));
-  float covers = mix(1.0, max(0.8 * rim * rim * rim, glint), clearness);
+  float clear = material == 2 && clearness > 0.0 ? mix(clearness, mixture.a, v_stain) : clearness;
+  float covers = mix(1.0, max(0.8 * rim * rim * rim, glint), clear);
   result = finish(outcome, covers);
 }
 #endif

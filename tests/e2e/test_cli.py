@@ -1283,6 +1283,26 @@ def record_and_replay():
 
 
 @check
+def liquids_that_meet_mix_their_colours():
+    """Water turns red where blood touches it, and stays clear farther away, and beside blood that does not touch it."""
+    if "render" not in FEATURES:
+        raise Skip("built without pictures")
+    file("mixed/drop.off", shapes.off(*shapes.sphere(radius=0.005)))
+    drop = ('<body name="%s" position="%g 0 0"><mechanical geometry="drop"><lennard_jones particles="120"/></mechanical><collision/>'
+            '<visual colour="%s" wetness="1" opacity="%g"/></body>')
+    rows = {}
+    for place in (0, -0.02):
+        scene = file("mixed/drops.spore", '<spore version="1.0"><solver time_step="0.00001"/><assets><mesh name="drop" file="drop.off"/></assets><bodies>'
+                     + drop % ("blood", place, "0.45 0.02 0.02", 1) + drop % ("water", 0.008, "0.62 0.72 0.76", 0.15) +
+                     '</bodies><tools><camera name="view" position="0.004 0.01 0.04" target="0.004 0 0"/></tools></spore>\n')
+        spore("render", scene, "--size", "250x160", "--light", "-o", "mixed/drops.png")
+        rows[place] = picture_files.png(WORK / "mixed/drops.png")[70:95]
+    redness = lambda place, column: sum(row[3 * column] - row[3 * column + 1] for row in rows[place]) / 25
+    assert redness(0, 130) > redness(-0.02, 130) + 3 and redness(0, 132) > redness(-0.02, 132) + 1.5, "where they touch"
+    assert all(abs(redness(0, column) - redness(-0.02, column)) < 0.5 for column in range(144, 166, 4)), "farther away"
+
+
+@check
 def render_makes_a_picture():
     """render writes a PNG of the asked size without a display."""
     if "render" not in FEATURES:

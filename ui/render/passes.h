@@ -33,7 +33,7 @@ typedef enum SporeProgramKind {
 
 typedef struct SporeProgram {
   GLuint id; /* 0: not made yet */
-  GLint offset, colour, wetness, clearness, cell, selected, material, axis, dim, width, near, fade,
+  GLint offset, colour, wetness, clearness, mixture, cell, selected, material, axis, dim, width, near, fade,
       direction; /* -1: has none */
 } SporeProgram;
 
@@ -111,9 +111,10 @@ typedef struct SporeSurfaceGroup {
   gsize drawn_count; /* vertices that are drawn */
   guint32 *twins;    /* drawn_count: which vertex each is; NULL: each itself */
   SporeSurfaceStyle style;
-  gboolean closed; /* so that back faces are never seen */
-  float cell;      /* m: size of the pattern of the tissue */
-  float axis[3];   /* longest axis at rest */
+  SporeMixture mixture; /* of a liquid: its shares are `stain` */
+  gboolean closed;      /* so that back faces are never seen */
+  float cell;           /* m: size of the pattern of the tissue */
+  float axis[3];        /* longest axis at rest */
 } SporeSurfaceGroup;
 
 typedef struct SporeSphereGroup {
@@ -154,6 +155,7 @@ static inline gsize spore_surface_shown(const SporeSurfaceGroup *surface, gboole
   return coarse && surface->coarse && !surface->texture ? surface->coarse_count : surface->triangle_count;
 }
 void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain);
+void spore_surface_mix(SporeSurfaceGroup *surface, const float *share, const SporeMixture *mixture);
 /* values: NULL: it has none any more. */
 void spore_surface_value(SporeSurfaceGroup *surface, const float *values);
 void spore_surface_move(SporeSurfaceGroup *surface, const double *vertices);

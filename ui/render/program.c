@@ -117,6 +117,7 @@ static void find_uniforms(SporeProgram *program) {
   program->colour = glGetUniformLocation(id, "colour");
   program->wetness = glGetUniformLocation(id, "wetness");
   program->clearness = glGetUniformLocation(id, "clearness");
+  program->mixture = glGetUniformLocation(id, "mixture");
   program->cell = glGetUniformLocation(id, "cell");
   program->selected = glGetUniformLocation(id, "selected");
   program->material = glGetUniformLocation(id, "material");

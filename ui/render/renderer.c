@@ -161,6 +161,12 @@ void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const 
   if (drawable) spore_surface_stain(drawable, stain);
 }
 
+void spore_renderer_mix_surface(SporeRenderer *renderer, guint surface, const float *share,
+                                const SporeMixture *mixture) {
+  SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  if (drawable) spore_surface_mix(drawable, share, mixture);
+}
+
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style) {
   SporeSurfaceGroup *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
   if (drawable) drawable->style = *style;

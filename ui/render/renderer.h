@@ -57,6 +57,13 @@ void spore_renderer_lay_texture(SporeRenderer *renderer, guint surface, const do
                                 const float *places);
 /* stain: one a vertex, 0..1: how much blood covers it; none at first. */
 void spore_renderer_stain_surface(SporeRenderer *renderer, guint surface, const float *stain);
+/* What a liquid is mixed with. */
+typedef struct SporeMixture {
+  float colour[3], clearness; /* as of SporeSurfaceStyle */
+} SporeMixture;
+/* share: one a vertex of a liquid's surface, 0..1: how much of what is there is the mixture; none at first. */
+void spore_renderer_mix_surface(SporeRenderer *renderer, guint surface, const float *share,
+                                const SporeMixture *mixture);
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style);
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
 guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],

@@ -61,6 +61,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
+  spore_stage_mix_liquids(stage);
   spore_stage_drop_textures(stage);
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
@@ -110,6 +111,7 @@ static SporeStageBody *body_of_level(SporeStage *stage, guint index, const Spore
 }
 
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
+  gboolean flowed = FALSE;
   for (guint i = 0; i < stage->bodies->len; i++) {
     SporeStageBody *body = body_of_level(stage, i, snapshot);
     if (!body->moves) continue;
@@ -120,7 +122,9 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     memcpy(body->q, q, body->q_count * sizeof *q);
     spore_stage_body_divide(stage, body, &snapshot->cuts);
     spore_stage_body_place(stage, body);
+    flowed |= body->liquid;
   }
+  if (flowed) spore_stage_mix_liquids(stage);
   show_cuts(stage, snapshot);
   g_array_set_size(stage->lenses, 0);
   if (snapshot->lens_count) g_array_append_vals(stage->lenses, snapshot->lenses, (guint)snapshot->lens_count);
@@ -140,6 +144,7 @@ void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options
     spore_stage_body_show(stage, stage->bodies->pdata[i]);
     spore_stage_body_place(stage, stage->bodies->pdata[i]);
   }
+  spore_stage_mix_liquids(stage);
   if (stage->contact_handle) spore_renderer_set_visible(stage->renderer, stage->contact_handle, options->contacts);
 }
 

@@ -119,6 +119,8 @@ void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
 /* Moves everything that the options show to the configuration body->q. */
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
+/* Lets the colours of liquids run into each other where they meet. Once they are placed. */
+void spore_stage_mix_liquids(SporeStage *stage);
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body);
 

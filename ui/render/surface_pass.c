@@ -235,6 +235,12 @@ void spore_surface_stain(SporeSurfaceGroup *surface, const float *stain) {
   fill_attribute(surface, &surface->stain, STAIN, stain);
 }
 
+/* Of a liquid, which nothing stains, the same numbers are shares. */
+void spore_surface_mix(SporeSurfaceGroup *surface, const float *share, const SporeMixture *mixture) {
+  surface->mixture = *mixture;
+  fill_attribute(surface, &surface->stain, STAIN, share);
+}
+
 void spore_surface_value(SporeSurfaceGroup *surface, const float *values) {
   if (values) {
     fill_attribute(surface, &surface->values, VALUE, values);
@@ -255,6 +261,8 @@ static void draw_surface(const SporeSurfaceGroup *surface, const SporeFrame *fra
   glUniform3fv(program->colour, 1, style->colour);
   glUniform1f(program->wetness, style->wetness);
   glUniform1f(program->clearness, style->clearness);
+  glUniform4f(program->mixture, surface->mixture.colour[0], surface->mixture.colour[1], surface->mixture.colour[2],
+              surface->mixture.clearness);
   glUniform1f(program->cell, surface->cell);
   glUniform1f(program->selected, style->selected ? 1 : 0);
   glUniform1i(program->material, style->material);
