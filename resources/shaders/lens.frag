@@ -29,11 +29,10 @@ vec3 drop_at(vec2 at, float cells, float seed, float covered) {
 
 void main() {
   vec2 place = gl_FragCoord.xy / viewport.xy, at = gl_FragCoord.xy / viewport.y;
+#ifdef DRY
+  result = vec4(texture(colour_map, straightened(place)).rgb, 1.0);
+#else
   float blood = lens.y, water = lens.z;
-  if (blood + water == 0.0) {
-    result = vec4(texture(colour_map, straightened(place)).rgb, 1.0);
-    return;
-  }
   vec3 clear = drop_at(at, 4.0, 1.0, water) + drop_at(at, 9.0, 2.0, water);
   vec3 red = drop_at(at, 2.3, 4.0, blood) + drop_at(at, 5.0, 5.0, blood);
   // A smear between the drops: wider the more covers the front, and streaked the way the shaft was wiped by tissue.
@@ -52,4 +51,5 @@ void main() {
   colour = colour * exp(-thick * vec3(0.35, 2.6, 2.4)) + (1.0 - exp(-0.8 * thick)) * vec3(0.055, 0.003, 0.002);
   colour += 0.10 * max(0.0, dot(clear.xy, vec2(-0.8, -0.8)));
   result = vec4(colour, 1.0);
+#endif
 }

@@ -11,7 +11,13 @@ uniform float clearness; // how much is seen of what lies behind
 uniform vec4 mixture;    // colour and clearness of what a liquid is mixed with
 uniform float cell;     // size of a pattern cell, m
 uniform float selected; // 0 or 1
-uniform int material;   // SporeMaterial
+#ifdef ONLY // of one material; no values, nothing tinted, no stain on metal
+const int material = ONLY;
+const bool plain = true;
+#else
+uniform int material; // SporeMaterial
+const bool plain = false;
+#endif
 uniform vec3 axis;      // streaks of brushed metal run along it, rest axes
 
 #ifdef TEXTURED
@@ -64,7 +70,7 @@ void main() {
   vec3 base = colour;
 #endif
   vec3 outcome;
-  if (v_value >= 0.0) {
+  if (!plain && v_value >= 0.0) {
     outcome = shade_plain(scale_colour(v_value), v_position, normal);
   } else if (material == 2) {
     outcome = shade_tissue(mixed(base), wetness, v_position, normal, normal, open, lit);
@@ -72,7 +78,7 @@ void main() {
     vec3 across = v_rest - axis * dot(v_rest, axis);
     vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
     outcome = shade_metal(base, v_position, normal, mat3(rotation) * streak, open, lit);
-    if (v_stain > 0.0)
+    if (!plain && v_stain > 0.0)
       outcome = mix(outcome, shade_tissue(blood_colour, 1.0, v_position, normal, normal, open, lit), 0.9 * soaked(v_mottle - 0.5));
   } else {
     // Blood shows through unevenly: pale and dark patches, and a fine grain.
@@ -95,7 +101,7 @@ void main() {
     albedo = mix(albedo, blood_colour, 0.9 * wet);
     bump = mat3(rotation) * bump * (1.0 - 0.3 * wet);
     bump -= normal * dot(normal, bump);
-    if (tint.w > 0.0 && !is_reached(v_position)) albedo = mix(albedo, tint.rgb, 0.75);
+    if (!plain && tint.w > 0.0 && !is_reached(v_position)) albedo = mix(albedo, tint.rgb, 0.75);
     outcome = shade_tissue(max(albedo, 0.0), mix(wetness, max(wetness, 0.7), wet), v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
   }
   // Behind a cut, the inside is told from the outside.

@@ -10,10 +10,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def bench_render(build, work):
-    """A frame of an organ with 500 spheres at 1280x720, read back."""
+    """A frame of organs and of scenes at 1280x720, read back; then what it takes of the processors, of which there may be
+    several."""
     program = build / "tests/bench/bench_render"
+    scenes = [HERE.parents[1] / "resources/scenes" / name for name in ("laparoscopy.spore", "table1-fluid.spore")]
     if program.exists():
-        done = subprocess.run([program], capture_output=True, text=True, check=True)
+        done = subprocess.run([program, *scenes], capture_output=True, text=True, check=True)
         for case, milliseconds in re.findall(r"^(.+): ([0-9.]+) ms$", done.stdout, re.M):
             yield row("render", case, float(milliseconds), "ms", 1000 / 30)
 

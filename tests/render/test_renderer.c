@@ -365,6 +365,38 @@ static void test_tint(void) {
   bench_close(&bench);
 }
 
+/* A surface that has values, all of them "none", or stains of nothing, is drawn by the program that does everything;
+ * else by one that does what its material needs. */
+static void check_own_program(SporeMaterial material, gboolean stains) {
+  const SporeSurfaceStyle style = {.colour = {0.45f, 0.09f, 0.075f}, .wetness = 0.8f, .material = material};
+  const SporeCamera camera = {.distance = 0.24, .azimuth = 0.5, .elevation = 0.35, .field_of_view = 0.7};
+  Bench bench = bench_open();
+  SporeTriangleMesh mesh = make_organ(0.05);
+  g_autofree float *numbers = g_new0(float, mesh.vertex_count);
+  guint surface = spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles,
+                                             mesh.triangle_count, &style);
+  Picture own = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, FALSE, FALSE);
+  for (gsize v = 0; v < mesh.vertex_count && !stains; v++) numbers[v] = -1;
+  if (stains) spore_renderer_stain_surface(bench.renderer, surface, numbers);
+  else spore_renderer_value_surface(bench.renderer, surface, numbers);
+  Picture any = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, FALSE, FALSE);
+  g_assert_cmpfloat(picture_compare(&own, &any).mean, <, 0.1);
+  for (gsize v = 0; v < mesh.vertex_count; v++) numbers[v] = 1;
+  if (stains) spore_renderer_stain_surface(bench.renderer, surface, numbers);
+  else spore_renderer_value_surface(bench.renderer, surface, numbers);
+  Picture other = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, FALSE, FALSE);
+  g_assert_cmpfloat(picture_compare(&own, &other).mean, >, 1);
+  picture_clear(&own), picture_clear(&any), picture_clear(&other);
+  spore_triangle_mesh_clear(&mesh);
+  bench_close(&bench);
+}
+
+static void test_own_programs(void) {
+  check_own_program(SPORE_MATERIAL_TISSUE, FALSE);
+  check_own_program(SPORE_MATERIAL_METAL, TRUE);
+  check_own_program(SPORE_MATERIAL_LIQUID, FALSE);
+}
+
 /* Far from the world's origin single precision no longer resolves millimetres: the same picture must come out. */
 static void test_far_from_the_origin(void) {
   const SporeSurfaceStyle style = {{0.45f, 0.09f, 0.075f}, 0.5f, FALSE, FALSE, FALSE};
@@ -577,6 +609,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/begun-and-read", test_begun_and_read);
   g_test_add_func("/render/renderer/prepared-on-a-thread", test_prepared_on_a_thread);
+  g_test_add_func("/render/renderer/own-programs", test_own_programs);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/clear", test_clear);

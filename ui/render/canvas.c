@@ -18,8 +18,9 @@ gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError
   return TRUE;
 }
 
-gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, GError **error) {
-  const SporeProgram *program = spore_programs_get(&canvas->programs, SPORE_PROGRAM_LENS, SPORE_VARIANT_FULL, error);
+gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, gboolean wet, GError **error) {
+  const SporeProgramKind kind = wet ? SPORE_PROGRAM_LENS : SPORE_PROGRAM_DRY_LENS;
+  const SporeProgram *program = spore_programs_get(&canvas->programs, kind, SPORE_VARIANT_FULL, error);
   if (!program) return FALSE;
   glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_COLOUR);
   glBindTexture(GL_TEXTURE_2D, straight ? straight->colour : 0);

@@ -16,8 +16,12 @@ typedef enum SporeVariant {
 } SporeVariant;
 
 typedef enum SporeProgramKind {
-  SPORE_PROGRAM_SURFACE,
+  SPORE_PROGRAM_SURFACE, /* of any kind; those below do a part of it, at a part of the cost */
   SPORE_PROGRAM_TEXTURED_SURFACE,
+  SPORE_PROGRAM_TISSUE,
+  SPORE_PROGRAM_TEXTURED_TISSUE,
+  SPORE_PROGRAM_METAL,
+  SPORE_PROGRAM_LIQUID,
   SPORE_PROGRAM_SPHERE,
   SPORE_PROGRAM_HIDDEN_SPHERE,
   SPORE_PROGRAM_PUFF,
@@ -28,6 +32,7 @@ typedef enum SporeProgramKind {
   SPORE_PROGRAM_GLOW,
   SPORE_PROGRAM_COMPOSITE,
   SPORE_PROGRAM_LENS,
+  SPORE_PROGRAM_DRY_LENS,
   SPORE_PROGRAM_COUNT
 } SporeProgramKind;
 
@@ -236,8 +241,9 @@ typedef struct SporeCanvas {
 /* Gives the frame to the shaders. */
 void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame);
 gboolean spore_background_pass(SporeCanvas *canvas, SporeVariant variant, GError **error);
-/* Draws the straight picture, as the lens of the frame shows it, into the bound framebuffer. straight: NULL: black. */
-gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, GError **error);
+/* Draws the straight picture, as the lens of the frame shows it, into the bound framebuffer. straight: NULL: black;
+ * wet: blood or water cover a share of the lens. */
+gboolean spore_lens_pass(SporeCanvas *canvas, const SporeTarget *straight, gboolean wet, GError **error);
 /* Draws everything that has a colour into the bound framebuffer, whose depth is cleared. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error);

@@ -12,9 +12,15 @@ typedef struct ProgramSource {
   const char *vertex, *fragment, *define; /* define: put before both, may be NULL */
 } ProgramSource;
 
+/* A driver that draws on processors computes both ways of every condition, whichever is taken. So what most surfaces
+ * need has a program without the rest. */
 static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_SURFACE] = {"surface.vert", "surface.frag"},
     [SPORE_PROGRAM_TEXTURED_SURFACE] = {"surface.vert", "surface.frag", "#define TEXTURED\n"},
+    [SPORE_PROGRAM_TISSUE] = {"surface.vert", "surface.frag", "#define ONLY 0\n"},
+    [SPORE_PROGRAM_TEXTURED_TISSUE] = {"surface.vert", "surface.frag", "#define ONLY 0\n#define TEXTURED\n"},
+    [SPORE_PROGRAM_METAL] = {"surface.vert", "surface.frag", "#define ONLY 1\n"},
+    [SPORE_PROGRAM_LIQUID] = {"surface.vert", "surface.frag", "#define ONLY 2\n"},
     [SPORE_PROGRAM_SPHERE] = {"sphere.vert", "sphere.frag"},
     [SPORE_PROGRAM_HIDDEN_SPHERE] = {"sphere.vert", "sphere.frag", "#define HIDDEN\n"},
     [SPORE_PROGRAM_PUFF] = {"puff.vert", "puff.frag"},
@@ -25,6 +31,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_GLOW] = {"screen.vert", "glow.frag"},
     [SPORE_PROGRAM_COMPOSITE] = {"screen.vert", "composite.frag"},
     [SPORE_PROGRAM_LENS] = {"screen.vert", "lens.frag"},
+    [SPORE_PROGRAM_DRY_LENS] = {"screen.vert", "lens.frag", "#define DRY\n"},
 };
 
 /* A narrow specular lobe of the film sparkles with one sample a pixel, so the fast variant widens the lobe. */

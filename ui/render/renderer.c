@@ -328,7 +328,7 @@ static gboolean draw_through_lens(SporeRenderer *renderer, const SporeCamera *ca
   spore_frame_prepare(&frame, camera, &renderer->canvas, options, width, height);
   spore_canvas_set_frame(&renderer->canvas, &frame);
   spore_target_bind(&renderer->screen);
-  return spore_lens_pass(&renderer->canvas, straight, error);
+  return spore_lens_pass(&renderer->canvas, straight, camera->blood > 0 || camera->water > 0, error);
 }
 
 gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,

@@ -293,39 +293,76 @@ static void draw_clear(const SporeSurfaceGroup *surface, const SporeFrame *frame
   glDisable(GL_BLEND);
 }
 
-/* Draws those with a texture, or those without one; those that are clear, or those that are not. Depth is drawn of all
- * alike, by the program of those without a texture. */
-static gboolean draw_kind(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
-                          gboolean textured, gboolean clear, GError **error) {
-  const SporeProgram *program = NULL;
-  const SporeProgramKind kind = textured ? SPORE_PROGRAM_TEXTURED_SURFACE : SPORE_PROGRAM_SURFACE;
+/* The program that does all that the surface needs, and least beside that. Depth is drawn of all by one. */
+static SporeProgramKind kind_of(const SporeSurfaceGroup *surface, const SporeFrame *frame, SporeVariant variant) {
+  SporeMaterial material = surface->style.material;
+  gboolean stained = material == SPORE_MATERIAL_METAL && surface->stain;
+  gboolean tinted = material == SPORE_MATERIAL_TISSUE && frame->block.tint[3] > 0;
+  if (variant >= SPORE_VARIANT_DEPTH) return SPORE_PROGRAM_SURFACE;
+  if (surface->values || stained || tinted || (surface->texture && material != SPORE_MATERIAL_TISSUE))
+    return surface->texture ? SPORE_PROGRAM_TEXTURED_SURFACE : SPORE_PROGRAM_SURFACE;
+  if (surface->texture) return SPORE_PROGRAM_TEXTURED_TISSUE;
+  if (material == SPORE_MATERIAL_TISSUE) return SPORE_PROGRAM_TISSUE;
+  return material == SPORE_MATERIAL_METAL ? SPORE_PROGRAM_METAL : SPORE_PROGRAM_LIQUID;
+}
+
+static gboolean draw_one(const SporeSurfaceGroup *surface, const SporeFrame *frame, SporePrograms *programs,
+                         SporeVariant variant, GError **error) {
+  const SporeProgram *program = spore_programs_get(programs, kind_of(surface, frame, variant), variant, error);
   gboolean colours = variant < SPORE_VARIANT_DEPTH;
-  for (guint i = 0; i < drawables->len; i++) {
-    const SporeSurfaceGroup *surface = drawables->pdata[i];
-    if (!is_drawn(drawables->pdata[i], colours) || (colours && surface->texture != NULL) != textured ||
-        spore_surface_is_clear(surface) != clear)
-      continue;
-    if (!program) {
-      program = spore_programs_get(programs, kind, variant, error);
-      if (!program) return FALSE;
-      glUseProgram(program->id);
-    }
-    if (textured) {
-      glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_TEXTURE);
-      glBindTexture(GL_TEXTURE_2D, surface->texture->id);
-    }
-    if (clear) draw_clear(surface, frame, program);
-    else draw_surface(surface, frame, program, colours);
+  if (!program) return FALSE;
+  glUseProgram(program->id);
+  if (colours && surface->texture) {
+    glActiveTexture(GL_TEXTURE0 + SPORE_UNIT_TEXTURE);
+    glBindTexture(GL_TEXTURE_2D, surface->texture->id);
   }
+  if (spore_surface_is_clear(surface)) draw_clear(surface, frame, program);
+  else draw_surface(surface, frame, program, colours);
   return TRUE;
+}
+
+/* A surface, and the square of the distance of its box's farthest corner from the eye. */
+typedef struct Farthest {
+  const SporeSurfaceGroup *surface;
+  double d2;
+} Farthest;
+
+static double farthest_d2(const SporeDrawable *drawable, SporeVec3 eye) {
+  const double from[3] = {eye.x, eye.y, eye.z};
+  double d2 = 0;
+  for (int k = 0; k < 3; k++) {
+    double d = fmax(fabs(drawable->lower[k] - from[k]), fabs(drawable->upper[k] - from[k]));
+    d2 += d * d;
+  }
+  return d2;
+}
+
+static int compare_distance(gconstpointer a, gconstpointer b) {
+  double x = ((const Farthest *)a)->d2, y = ((const Farthest *)b)->d2;
+  return (x > y) - (x < y);
+}
+
+/* Surfaces in the order in which they are drawn: what lies within another, or before another, first, so that what is
+ * behind is not shaded; clear ones as they were added. */
+static GArray *in_order(GPtrArray *drawables, const SporeFrame *frame, gboolean colours, gboolean clear) {
+  GArray *order = g_array_new(FALSE, FALSE, sizeof(Farthest));
+  for (guint i = 0; i < drawables->len; i++) {
+    if (!is_drawn(drawables->pdata[i], colours) || spore_surface_is_clear(drawables->pdata[i]) != clear) continue;
+    const Farthest one = {drawables->pdata[i], farthest_d2(drawables->pdata[i], frame->eye)};
+    g_array_append_val(order, one);
+  }
+  if (!clear) g_array_sort(order, compare_distance);
+  return order;
 }
 
 gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, gboolean clear, GError **error) {
   if (!spore_drawables_show(drawables, SPORE_DRAW_SURFACE)) return TRUE;
   spore_frame_clip(frame, TRUE);
-  gboolean done = draw_kind(drawables, frame, programs, variant, FALSE, clear, error) &&
-                  draw_kind(drawables, frame, programs, variant, TRUE, clear, error);
+  g_autoptr(GArray) order = in_order(drawables, frame, variant < SPORE_VARIANT_DEPTH, clear);
+  gboolean done = TRUE;
+  for (guint i = 0; i < order->len && done; i++)
+    done = draw_one(g_array_index(order, Farthest, i).surface, frame, programs, variant, error);
   spore_frame_clip(frame, FALSE);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

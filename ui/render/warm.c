@@ -12,6 +12,8 @@ typedef enum {
   GRID,
   LINES,
   SURFACES,
+  METAL,
+  LIQUID,
   VALUED,
   STAINED,
   CLEAR,
@@ -21,6 +23,7 @@ typedef enum {
   OVERLAYS,
   PUFFS,
   LENS,
+  DRY_LENS,
   CUT, /* a surface, and the cap that fills it */
   STEP_COUNT
 } Step;
@@ -32,7 +35,10 @@ static const float colour[3] = {1, 1, 1};
 static SporeDrawable *surface_of(Step step, const SporeTextureImage *texture) {
   static const guint32 triangles[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   static const float numbers[4] = {0.5f, 0.5f, 0.5f, 0.5f}, places[24] = {0};
-  const SporeSurfaceStyle style = {.colour = {1, 1, 1}, .clearness = step == CLEAR ? 0.5f : 0};
+  const SporeMaterial material = step == METAL                     ? SPORE_MATERIAL_METAL
+                                 : step == LIQUID || step == CLEAR ? SPORE_MATERIAL_LIQUID
+                                                                   : SPORE_MATERIAL_TISSUE;
+  const SporeSurfaceStyle style = {.colour = {1, 1, 1}, .material = material, .clearness = step == CLEAR ? 0.5f : 0};
   SporeSurfaceGroup *surface = spore_surface_new(corners, 4, triangles, 4, &style, step == VALUED ? numbers : NULL);
   if (step == TEXTURED || step == STAINED_TEXTURED) spore_surface_lay(surface, corners, texture, places);
   if (step == STAINED || step == STAINED_TEXTURED) spore_surface_stain(surface, numbers);
@@ -48,6 +54,8 @@ static SporeDrawable *sample_of(Step step, const SporeTextureImage *texture) {
   case LINES:
     return &spore_line_group_new(corners, 1, colour, 1)->base;
   case SURFACES:
+  case METAL:
+  case LIQUID:
   case VALUED:
   case STAINED:
   case CLEAR:
@@ -78,6 +86,8 @@ static gboolean draw(SporeCanvas *canvas, Step step, const SporeFrame *frame, GP
   case LINES:
     return spore_line_pass(things, frame, programs, variant, TRUE, error);
   case SURFACES:
+  case METAL:
+  case LIQUID:
   case VALUED:
   case STAINED:
   case CLEAR:
@@ -90,7 +100,8 @@ static gboolean draw(SporeCanvas *canvas, Step step, const SporeFrame *frame, GP
   case PUFFS:
     return spore_puff_pass(things, frame, programs, variant, error);
   case LENS:
-    return spore_lens_pass(canvas, NULL, error);
+  case DRY_LENS:
+    return spore_lens_pass(canvas, NULL, step == LENS, error);
   default:
     return spore_sphere_pass(things, frame, programs, variant, step == OVERLAYS, error);
   }
