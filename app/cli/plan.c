@@ -125,14 +125,26 @@ static void report_damping(SporeCli *cli, const SporeWorld *world, guint body, G
                            spore_world_body_name(world, body), 100 * share);
 }
 
+/* Whether the body is a surface with an edge, as its model takes it: a closed one encloses a volume, and does not fold.
+ */
+static gboolean is_open_sheet(const SporeRun *run, guint body) {
+  const SporeWorld *world = run->simulation->world;
+  SporeObject *object = spore_document_find(run->document, "body", spore_world_body_name(world, body));
+  SporeObject *mechanical = object ? spore_object_child_of(object, "mechanical") : NULL;
+  SporeObject *asset = mechanical ? spore_object_reference(mechanical, "geometry") : NULL;
+  gboolean surface = spore_world_body_model(world, body)->type->geometry == SPORE_GEOMETRY_SURFACE;
+  const SporeTriangleMesh *mesh = asset && surface ? spore_document_mesh(run->document, asset, NULL) : NULL;
+  SporeMeshReport report;
+  return mesh && spore_triangle_mesh_report(mesh, &report, NULL) && report.boundary_edges > 0;
+}
+
 /* Measured by bench_fold, on a net 90 mm wide with 500 spheres of 2 mm, at folds to radii of 3, 6 and 12 mm: what fixed
  * spheres leave open in the fold is .38 to .41 mm on average, and .38 mm where the net is flat. A reserve of 40 % more
  * spheres that goes into the sharpest fold leaves .13 mm, and a step's cost is then 4.3 us instead of 2.2; as many more
  * everywhere leave .31 mm in the fold and .27 mm beside it, at 2.8 us. */
-static void remark_bending(const SporeWorld *world, guint body, GString *remarks) {
-  const char *model = spore_world_body_model(world, body)->type->name;
-  gboolean sheet = strcmp(model, "mass_spring_net") == 0 || strcmp(model, "spline_2d") == 0;
-  if (!sheet || spore_world_body_sphere_count(world, body) < 2) return;
+static void remark_bending(const SporeRun *run, guint body, GString *remarks) {
+  const SporeWorld *world = run->simulation->world;
+  if (spore_world_body_sphere_count(world, body) < 2 || !is_open_sheet(run, body)) return;
   g_string_append_printf(
       remarks,
       _("%s: its spheres keep their places on it while it bends, which leaves gaps about 5 %% wider in a sharp fold "
@@ -142,8 +154,9 @@ static void remark_bending(const SporeWorld *world, guint body, GString *remarks
 }
 
 /* Members of a body, and the sentences that go with them. */
-static void report_remarks(SporeCli *cli, const SporeWorld *world, guint body, const SporeMethod *method,
+static void report_remarks(SporeCli *cli, const SporeRun *run, guint body, const SporeMethod *method,
                            GString *remarks) {
+  const SporeWorld *world = run->simulation->world;
   json_builder_set_member_name(cli->report, "implicit_by");
   if (method->coupled == SPORE_COUPLED_NEVER) json_builder_add_null_value(cli->report);
   else json_builder_add_string_value(cli->report, method->coupled == SPORE_COUPLED_LINKS ? "links" : "contacts");
@@ -152,7 +165,7 @@ static void report_remarks(SporeCli *cli, const SporeWorld *world, guint body, c
                  spore_world_body_model(world, body)->type->rates != NULL);
   remark_impacts(cli, remarks, spore_world_body_name(world, body), method->impacts);
   report_damping(cli, world, body, remarks);
-  remark_bending(world, body, remarks);
+  remark_bending(run, body, remarks);
 }
 
 static void report_method(SporeCli *cli, const SporeDocument *document, const SporeWorld *world, guint index, int width,
@@ -190,7 +203,9 @@ static void report_branches(SporeCli *cli, const SporeWorld *world) {
   spore_cli_close_array(cli);
 }
 
-static void report_bodies(SporeCli *cli, const SporeDocument *document, const SporeWorld *world) {
+static void report_bodies(SporeCli *cli, const SporeRun *run) {
+  const SporeDocument *document = run->document;
+  const SporeWorld *world = run->simulation->world;
   SporeMethod method;
   gboolean titled = FALSE;
   g_autoptr(GString) remarks = g_string_new(NULL);
@@ -203,7 +218,7 @@ static void report_bodies(SporeCli *cli, const SporeDocument *document, const Sp
                     _("nonlinear"), _("linear"));
     titled = TRUE;
     report_method(cli, document, world, body, width, &method);
-    report_remarks(cli, world, body, &method, remarks);
+    report_remarks(cli, run, body, &method, remarks);
     spore_cli_close(cli);
   }
   for (guint body = 0; body < spore_world_body_count(world); body++) spore_body_say_work(world, body, say_work, cli);
@@ -272,7 +287,7 @@ static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, cons
   for (gsize i = 0; i < plan->left_out_count; i++) report_left_out(cli, &plan->left_out[i], world, unpruned);
   spore_plan_report_files_left_out(cli, document, needs);
   spore_cli_close_array(cli);
-  report_bodies(cli, document, world);
+  report_bodies(cli, run);
   report_effects(cli, world);
   report_branches(cli, world);
 }
