@@ -3,6 +3,7 @@
 
 #include "app/cli/cli.h"
 #include "app/cli/scene.h"
+#include "core/author/fix.h"
 #include "core/scene/check.h"
 
 static const char *severity_name(SporeSeverity severity) {
@@ -10,12 +11,29 @@ static const char *severity_name(SporeSeverity severity) {
   return names[severity];
 }
 
-static void report_diagnostic(SporeCli *cli, const SporeDiagnostic *diagnostic) {
+/* What spore edit --fix does about it; null: nothing. What asks where a file lies is not among them. */
+static void report_fix(SporeCli *cli, const char *scene, const SporeDiagnostic *diagnostic) {
+  if (!spore_fix_asks_nothing(diagnostic)) {
+    spore_cli_text(cli, "fix", NULL);
+    return;
+  }
+  g_autofree char *quoted = g_shell_quote(scene);
+  g_autofree char *command = g_strdup_printf("spore edit %s --fix", quoted);
+  g_autofree char *does = spore_fix_label(diagnostic);
+  spore_cli_open(cli, "fix");
+  spore_cli_text(cli, "kind", spore_fix_name(diagnostic->fix));
+  spore_cli_text(cli, "does", does);
+  spore_cli_text(cli, "command", command);
+  spore_cli_close(cli);
+}
+
+static void report_diagnostic(SporeCli *cli, const char *scene, const SporeDiagnostic *diagnostic) {
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "severity", severity_name(diagnostic->severity));
   spore_cli_text(cli, "place", diagnostic->place);
   spore_cli_text(cli, "message", diagnostic->message);
   spore_cli_text(cli, "remedy", diagnostic->remedy);
+  report_fix(cli, scene, diagnostic);
   spore_cli_close(cli);
   spore_cli_say(cli, "%s: %s: %s; %s\n", diagnostic->place, severity_name(diagnostic->severity), diagnostic->message,
                 diagnostic->remedy);
@@ -24,7 +42,9 @@ static void report_diagnostic(SporeCli *cli, const SporeDiagnostic *diagnostic) 
 int spore_command_check(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"diagnostics", N_("what was found, worst first: severity (error, warning, note), place (FILE:LINE:COLUMN or "
-                         "path), message, remedy")},
+                         "path), message, remedy, fix (what can be done about it without asking: kind (hold, set, "
+                         "remove, generate), does (in words), command (which does all such fixes of the scene); null: "
+                         "nothing)")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"check",
                                         "SCENE",
@@ -50,7 +70,7 @@ int spore_command_check(SporeCli *cli, int argc, char **argv) {
   spore_cli_open_array(cli, "diagnostics");
   for (guint i = 0; i < diagnostics->len; i++) {
     const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
-    report_diagnostic(cli, diagnostic);
+    report_diagnostic(cli, argv[1], diagnostic);
     faults += diagnostic->severity == SPORE_FAULT;
   }
   spore_cli_close_array(cli);

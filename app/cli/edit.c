@@ -339,8 +339,7 @@ static gboolean fix_all(SporeCli *cli, SporeDocument *document, GPtrArray *chang
   g_autoptr(GPtrArray) diagnostics = spore_document_check(document, spore_cli_cancel());
   for (guint i = 0; i < diagnostics->len; i++) {
     const SporeDiagnostic *diagnostic = diagnostics->pdata[i];
-    if (diagnostic->fix == SPORE_FIX_NONE || diagnostic->fix == SPORE_FIX_LOCATE) continue;
-    if (!fix(cli, document, diagnostic, changed, error)) return FALSE;
+    if (spore_fix_asks_nothing(diagnostic) && !fix(cli, document, diagnostic, changed, error)) return FALSE;
   }
   return TRUE;
 }

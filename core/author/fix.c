@@ -18,6 +18,10 @@ const char *spore_fix_name(SporeFix fix) {
   return names[fix];
 }
 
+gboolean spore_fix_asks_nothing(const SporeDiagnostic *diagnostic) {
+  return diagnostic->fix != SPORE_FIX_NONE && diagnostic->fix != SPORE_FIX_LOCATE;
+}
+
 char *spore_fix_label(const SporeDiagnostic *diagnostic) {
   g_autofree char *names = diagnostic->properties ? g_strdelimit(g_strdup(diagnostic->properties), "|", ' ') : NULL;
   switch (diagnostic->fix) {
@@ -66,7 +70,7 @@ static gboolean make_generator(SporeFixWork *work, SporeDocument *document, Spor
 
 SporeFixWork *spore_fix_work_new(SporeDocument *document, const SporeDiagnostic *diagnostic, GError **error) {
   SporeObject *object = spore_document_by_id(document, diagnostic->fixed);
-  if (diagnostic->fix == SPORE_FIX_NONE || diagnostic->fix == SPORE_FIX_LOCATE || !object) {
+  if (!spore_fix_asks_nothing(diagnostic) || !object) {
     spore_error_raise(error, SPORE_ERROR_INPUT, diagnostic->place, "%s",
                       _("there is no fix for this; expected a problem with one; do what its remedy says"));
     return NULL;

@@ -8,6 +8,8 @@
 
 /* What the fix of the diagnostic does, for a button, translated. g_free; NULL: it has none. */
 char *spore_fix_label(const SporeDiagnostic *diagnostic);
+/* Whether the diagnostic has a fix that needs no answer, so that it can be done with all others at once. */
+gboolean spore_fix_asks_nothing(const SporeDiagnostic *diagnostic);
 /* Name of a kind of fix, for reports: "hold"; NULL: none. */
 const char *spore_fix_name(SporeFix fix);
 

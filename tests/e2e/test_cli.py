@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import resource
+import shlex
 import signal
 import struct
 import subprocess
@@ -1874,7 +1875,7 @@ def an_instrument_is_refused_with_a_remedy():
 @check
 @alike
 def a_missing_file_is_located():
-    """Files that a scene misses are taken from where they lie now, all of a folder at once; what is not missing or is another file is refused, and nothing is written."""
+    """Files that a scene misses are taken from where they lie now, all of a folder at once; what is not missing or is another file is refused, and nothing is written. What needs no question is mended by the command that the check gives."""
     file("moved/at/ball.off", shapes.off(*shapes.sphere()))
     file("moved/at/picture.png", shapes.off(*shapes.sphere()))
     scene = file("moved/scene.spore", '<spore version="1.0"><assets><mesh name="ball" file="gone/ball.off"/></assets><bodies><body name="ball" role="unmovable">'
@@ -1888,6 +1889,15 @@ def a_missing_file_is_located():
     found = report("edit", scene, "--locate", "gone/ball.off=moved/at/ball.off")["located"]
     assert [(one["missing"], bool(one["refused"])) for one in found] == [("gone/ball.off", False), ("picture.png", True)], found
     assert not [one for one in report("check", scene)["diagnostics"] if "ball.off" in one["message"]]
+    scene.write_text(scene.read_text().replace("</assets>", '<spheres name="idle" file="idle.spheres"/></assets>'))
+    file("moved/idle.spheres", "0 0 0 0.1\n")
+    unused = [one for one in report("check", scene)["diagnostics"] if one["place"] == "assets/idle" or "idle" in one["message"]]
+    assert [one["fix"]["kind"] for one in unused] == ["remove"] and unused[0]["fix"]["does"] == "Remove it", unused
+    assert not any(one["fix"] for one in report("check", scene)["diagnostics"] if "picture.png" in one["message"])  # it is asked where the file lies
+    command = shlex.split(unused[0]["fix"]["command"])
+    assert command == ["spore", "edit", str(scene), "--fix"]
+    spore(*command[1:])
+    assert "idle" not in scene.read_text()
 
 
 @check
