@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Makes what the exercise of suction holds: a bowl with its collision spheres, and a pool of blood that lies in it.
+"""Makes what the exercise of suction holds: a bowl with its collision spheres, a pool of blood that lies in it, and the
+water of the irrigation, which is out of the world at first.
 
     make_dish.py FOLDER
 """
@@ -15,6 +16,7 @@ from make_tissue import write_rows
 BOWL, RIM, THICK = 0.034, 1.15, 0.003  # radius of its inside about the origin; how far up the rim is, rad; its wall
 SPHERE, SPACING = 0.006, 0.0045  # radius of collision spheres, and how far apart they lie
 POOL = (0.0165, 0.0055)  # half width and half height
+WATER = 0.0156  # radius of what is poured at most: 16 ml
 
 
 def upright(mesh):
@@ -34,10 +36,10 @@ def bowl():
     return upright((vertices, triangles))
 
 
-def pool():
+def drop(width, height):
     angle = np.linspace(0.15, np.pi - 0.15, 12)
-    vertices, triangles = turned([(POOL[0] * math.sin(a), -POOL[1] * math.cos(a)) for a in angle], 24)
-    vertices[0], vertices[-1] = (0, 0, -POOL[1]), (0, 0, POOL[1])
+    vertices, triangles = turned([(width * math.sin(a), -height * math.cos(a)) for a in angle], 24)
+    vertices[0], vertices[-1] = (0, 0, -height), (0, 0, height)
     return upright((vertices, triangles))
 
 
@@ -57,7 +59,7 @@ def bowl_spheres():
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(exist_ok=True)
-    for name, mesh in (("bowl", bowl()), ("pool", pool())):
+    for name, mesh in (("bowl", bowl()), ("pool", drop(*POOL)), ("water", drop(WATER, WATER))):
         check_closed(mesh[1])
         write_off(folder, name, mesh)
     write_rows(folder / "bowl.spheres", bowl_spheres(), "# x y z r, in metres")

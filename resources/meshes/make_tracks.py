@@ -114,13 +114,15 @@ TRACKS = {
             (0.0, 0.0154, 0.0199, 0.0500), (0.2, 0.0154, 0.0199, 0.0500), (1.8, -0.0031, 0.0199, 0.0500),
             (2.4, -0.0031, 0.0199, 0.0500), (3.0, 0.0080, 0.0180, 0.0500), (4.0, 0.0080, 0.0180, 0.0500)]),
     },
-    # The tube goes down into the bowl, sucks in the middle and on all sides, and comes out; the other instrument waits.
+    # The tube goes down into the bowl, sucks in the middle and on all sides, rinses the wound with its second button, sucks
+    # away what ran down, and comes out; the other instrument waits.
     "exercise-suction": {
         "tube": (ABOVE, [
             (0.0, 0.030, 0.035, 0.033, 0), (0.7, 0.004, -0.018, 0.004, 0), (0.9, 0.000, -0.0290, 0.000, 1), (2.6, 0.000, -0.0290, 0.000, 1),
             (3.1, 0.008, -0.0285, -0.006, 1), (3.6, -0.008, -0.0285, -0.006, 1), (4.1, -0.008, -0.0285, 0.006, 1), (4.6, 0.000, -0.0295, 0.000, 1),
-            (6.4, 0.000, -0.0295, 0.000, 0), (7.0, 0.030, 0.035, 0.033, 0)]),
-        "endoscope": (BESIDE, [(0.0, -0.052, 0.068, 0.047), (7.0, -0.052, 0.068, 0.047)]),
+            (4.8, 0.000, -0.0295, 0.000, 0), (5.2, 0.030, -0.004, 0.004, 2), (5.6, 0.030, -0.004, 0.004, 0), (6.0, 0.000, -0.0290, 0.000, 1),
+            (8.2, 0.000, -0.0290, 0.000, 0), (8.8, 0.030, 0.035, 0.033, 0)]),
+        "endoscope": (BESIDE, [(0.0, -0.052, 0.068, 0.047), (8.8, -0.052, 0.068, 0.047)]),
     },
     # Into the fold between two loops, the upper one to the left, and out.
     "plate6-intestine": {"probe": (RIGHT, [

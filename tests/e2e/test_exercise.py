@@ -462,7 +462,7 @@ def a_tube_is_clamped_on_both_sides_and_cut_between():
 @check
 @alike
 def pool_is_sucked_dry_by_its_track():
-    """And not by a tube that takes as much as the wound gives."""
+    """And not by a tube that takes as much as the wound gives. Then the wound is rinsed, and the water sucked away."""
     short = is_sanitized(SPORE)
     exercise = run_exercise("exercise-suction", 11000 if short else 42000)
     assert left(exercise) == (["half", "dry"] if short else []), exercise
@@ -475,6 +475,11 @@ def pool_is_sucked_dry_by_its_track():
     # blood as an effect is sucked dry too, at steps a hundred times as long
     drops = run_exercise("exercise-suction", 420, "--dt", "0.01", "--set", "bodies/blood/fidelity/mode=effect")
     assert drops["passed"] and drops["score"] == 100 and 3 < drops["time_s"] < 4.2, drops
+    water = lambda count: json.loads(spore("run", SCENES / "exercise-suction.spore", "-n", count, "--json", "--dt", "0.01", "--set",
+                                           "bodies/blood/fidelity/mode=effect").stdout)["fluids"][1]
+    assert water(500)["poured_ml"] == 0, "the tube is on its way"
+    rinsed = water(800)
+    assert 5 < rinsed["poured_ml"] < 8 and 3 < rinsed["sucked_ml"] < rinsed["poured_ml"], rinsed
     assert short or abs(metrics(drops)["blood"]["value"] - counted) < 0.2 * counted, drops
 
 

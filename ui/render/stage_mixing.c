@@ -1,5 +1,5 @@
 /* Liquids that meet: water that washes blood away is pink. Each liquid has a skin of its own, whose colour runs into
- * that of the others by how much of each lies around a vertex. */
+ * that of the others by how much dye of each lies around a vertex. */
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +8,7 @@
 
 #define REACH 3.5     /* distances between neighbours: what is farther from a vertex does not colour it */
 #define CELLS_MOST 48 /* along an axis */
+#define LEAST_DYE 0.02
 
 typedef struct Box {
   double lower[3], upper[3];
@@ -16,8 +17,8 @@ typedef struct Box {
 /* A particle of some liquid. */
 typedef struct Drop {
   const double *centre;
-  double volume; /* m3, but for a factor */
-  guint body;    /* index in the stage */
+  double dye; /* its volume by its opacity, but for a factor: a little blood colours much water */
+  guint body; /* index in the stage */
 } Drop;
 
 /* Drops by cells of a grid, each as wide as the reach or wider. */
@@ -49,7 +50,8 @@ static gboolean lies_in(const Box *box, const double *point) {
 
 /* Adds the drops of a body that lie in the box. */
 static void collect(const SporeStageBody *body, guint index, const Box *box, GArray *drops) {
-  const Drop drop = {.volume = pow(body->spheres[3], 3), .body = index};
+  const double opacity = fmax(1 - (double)body->style.clearness, LEAST_DYE);
+  const Drop drop = {.dye = pow(body->spheres[3], 3) * opacity, .body = index};
   for (gsize i = 0; i < body->shown; i++) {
     const double *centre = body->centres.positions + 3 * i;
     if (!lies_in(box, centre)) continue;
@@ -99,7 +101,7 @@ static void weigh(const Grid *grid, const GArray *drops, const double *point, do
           const Drop *drop = &g_array_index(drops, Drop, i);
           double gap = spore_vec3_distance(spore_vec3_load(drop->centre), spore_vec3_load(point)) / reach;
           double near = 1 - gap * gap;
-          if (near > 0) amount[drop->body] += drop->volume * near * near * near;
+          if (near > 0) amount[drop->body] += drop->dye * near * near * near;
         }
 }
 
