@@ -352,8 +352,7 @@ static gboolean keep_pose(SporeCli *cli, SporeDocument *document, const char *te
   if (!spore_cli_seconds("--keep-pose", text, &time_s, error) ||
       !spore_edit_keep_pose_after(document, time_s, spore_cli_cancel(), spore_cli_progress(cli), left_out, error))
     return FALSE;
-  for (guint i = 0; i < left_out->len; i++)
-    spore_cli_say(cli, _("no pose is kept: %s\n"), (const char *)left_out->pdata[i]);
+  for (guint i = 0; i < left_out->len; i++) spore_cli_say(cli, _("not kept: %s\n"), (const char *)left_out->pdata[i]);
   note(changed, spore_document_section(document, "bodies"));
   return TRUE;
 }

@@ -81,6 +81,18 @@ static gboolean keep(const Seen *seen, GPtrArray *left_out, guint *kept, GError 
   return keep_body(seen, error);
 }
 
+/* Says which instruments hold something: a pose keeps where jaws are, not the springs to what is between them. */
+static void say_let_go(const SporeWorld *world, GPtrArray *left_out) {
+  for (gsize i = 0; i < spore_world_tool_count(world); i++) {
+    SporeToolState state = spore_world_tool_state(world, i);
+    if (state.held > 0)
+      g_ptr_array_add(left_out,
+                      g_strdup_printf(_("\"%s\" begins with its jaws so, but lets go of what they hold, until "
+                                        "its device closes them on it again"),
+                                      state.name));
+  }
+}
+
 gboolean spore_edit_keep_pose(SporeDocument *document, const SporeSimulation *simulation, GPtrArray *left_out,
                               GError **error) {
   SporeObject *bodies = spore_document_section(document, "bodies");
@@ -96,6 +108,7 @@ gboolean spore_edit_keep_pose(SporeDocument *document, const SporeSimulation *si
     done = spore_error_raise(error, SPORE_ERROR_INPUT, "bodies", "%s",
                              left_out->len > 0 ? (const char *)left_out->pdata[0]
                                                : _("no body has moved; play first, and keep what you see then"));
+  if (done) say_let_go(simulation->world, left_out);
   return spore_edit_finish(document, done);
 }
 

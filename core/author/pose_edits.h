@@ -7,8 +7,9 @@
 
 /* Makes the present state of the simulation, whose thread stands still, the scene's beginning: each active and passive
  * body begins where it is, at rest; one undo step. A body that is where its model puts it keeps no pose. left_out: gets
- * a translated sentence (g_free) for each body whose state cannot be kept, which begins as before. FALSE with a
- * GError: there is no body that moved and can be kept, and nothing was changed. */
+ * a translated sentence (g_free) for each body whose state cannot be kept, which begins as before, and for each
+ * instrument whose jaws hold something, which is let go. FALSE with a GError: there is no body that moved and can be
+ * kept, and nothing was changed. */
 gboolean spore_edit_keep_pose(SporeDocument *document, const SporeSimulation *simulation, GPtrArray *left_out,
                               GError **error);
 /* Runs a copy of the scene from its beginning for that time, and keeps what has become of it. */

@@ -186,11 +186,30 @@ static void test_inverted(void) {
   fixture_scene_free(&scene);
 }
 
+/* What jaws hold at a kept pose is let go: said as the pose is kept, and by the check of the scene; not of open jaws.
+ */
+static void test_jaws(void) {
+  const double open_s = 1, held_s = 1.6;
+  for (int held = 0; held < 2; held++) {
+    SporeDocument *document = load("plate8-clamp");
+    g_autoptr(GPtrArray) left_out = g_ptr_array_new_with_free_func(g_free);
+    g_autoptr(GError) error = NULL;
+    g_assert_true(spore_edit_keep_pose_after(document, held ? held_s : open_s, NULL, NULL, left_out, &error));
+    g_assert_no_error(error);
+    g_assert_cmpuint(left_out->len, ==, held ? 1 : 0);
+    if (held) g_assert_nonnull(strstr(left_out->pdata[0], "lets go of what they hold"));
+    g_autoptr(GPtrArray) found = spore_document_check(document, NULL);
+    g_assert_true((find_said(found, "has its jaws about \"tube_right\" as they were kept") != NULL) == held);
+    spore_document_free(document);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/pose/kinds", test_kinds);
   g_test_add_func("/pose/belongs", test_belongs);
   g_test_add_func("/pose/damaged", test_damaged);
   g_test_add_func("/pose/inverted", test_inverted);
+  g_test_add_func("/pose/jaws", test_jaws);
   return g_test_run();
 }

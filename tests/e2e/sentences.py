@@ -156,6 +156,13 @@ def instrument(kind, *bodies, more="", spheres=BALL, assets=ASSETS + SHEET + CEL
                  tools=f'<{kind} name="t" body="tool" device="m" {more}/>', **rest)
 
 
+def kept_jaws(x):
+    """A grasper whose jaws, kept at 1.1, are about the stone or not."""
+    kept = [body(name, BALL, role="active", position="1 0 0", kept_pose="led.pose") for name in ("left", "right")]
+    return scene(stone(position=f"{x} 0 0"), tool(), *kept, devices=MOUSE,
+                 tools='<grasper name="t" body="tool" device="m" jaw_a="left" jaw_b="right" hinge="1 0 0" axis="0 0 1"/>')
+
+
 def jaws(kind, *bodies, left='jaw_a="left"', **rest):
     return instrument(kind, *bodies, more=f'{left} jaw_b="right" hinge="1 0 0" axis="0 0 1"' +
                       (' tip="1.05 0 0"' if kind == "scissors" else ""), **rest)
@@ -339,6 +346,8 @@ CHECK = [
     ("the kept pose of \"%s\" is of another shape or model: it begins as its geometry says",
      ["play and keep the pose again, or take kept_pose out"],
      scene(stone(kept_pose="led.pose")), scene(tool(kept_pose="led.pose"), tools=PROBE, devices=MOUSE)),
+    ("\"%s\" has its jaws about \"%s\" as they were kept, and holds it only when its device closes them",
+     ["close them at the start, or let a link hold it"], kept_jaws("1.1"), kept_jaws("1.3")),
     ("\"%s\" has a kept pose, and does not move", ["take kept_pose out, or make it movable"],
      scene(floor(kept_pose="led.pose")), scene(floor(), stone(kept_pose="led.pose"))),
     ("\"%s\" has places in a texture, and no texture", ["name a texture, or remove texture_places"],
