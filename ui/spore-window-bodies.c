@@ -6,6 +6,7 @@
 #include "core/author/order_edits.h"
 #include "core/author/removal.h"
 #include "core/author/soft_edits.h"
+#include "ui/document/locks.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
@@ -150,10 +151,32 @@ static void act_show_all(GSimpleAction *action, GVariant *parameter, gpointer da
 
 /* Locking. */
 
-static void locks_changed(SporeWindow *self) {
+static void show_locks(SporeWindow *self) {
   spore_outliner_set_locked(SPORE_OUTLINER(self->outliner), spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)));
   spore_window_update_actions(self);
   spore_window_show_hint(self);
+}
+
+void spore_window_keep_locks(SporeWindow *self) {
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  g_autoptr(GError) error = NULL;
+  if (scene &&
+      !spore_locks_keep(scene, document_of(self), spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)), &error) &&
+      error)
+    spore_window_log(self, "%s", error->message);
+}
+
+void spore_window_restore_locks(SporeWindow *self) {
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  g_autoptr(GPtrArray) bodies = scene ? spore_locks_read(scene, document_of(self)) : g_ptr_array_new();
+  if (bodies->len == 0) return;
+  spore_viewport_lock_or_unlock(SPORE_VIEWPORT(self->viewport), bodies);
+  show_locks(self);
+}
+
+static void locks_changed(SporeWindow *self) {
+  show_locks(self);
+  spore_window_keep_locks(self);
 }
 
 static void act_lock(GSimpleAction *action, GVariant *parameter, gpointer data) {

@@ -138,6 +138,9 @@ void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 
 /* spore-window-bodies.c: what is done to all that is selected. */
 void spore_window_add_body_actions(SporeWindow *self);
+/* Keeps what is locked for the next time that the scene's file is opened, or locks what was kept. */
+void spore_window_keep_locks(SporeWindow *self);
+void spore_window_restore_locks(SporeWindow *self);
 /* bodies: of SporeObject *. */
 void spore_window_select(SporeWindow *self, const GPtrArray *bodies);
 

@@ -13,6 +13,7 @@
 #include "core/base/number.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/error.h"
+#include "ui/document/scene-place.h"
 
 #define FOLDER_MODE 0700
 #define FILE_MODE 0600
@@ -27,12 +28,8 @@ SporeAttempt spore_attempt_of(const SporeExerciseState *state) {
                         .passed = state->passed};
 }
 
-/* Two scenes of one name have files of their own. g_free. */
 static char *place_of(const char *scene, const char *extension) {
-  g_autofree char *path = g_canonicalize_filename(scene, NULL), *name = g_path_get_basename(path);
-  g_autofree char *hash = g_compute_checksum_for_string(G_CHECKSUM_SHA256, path, -1);
-  g_autofree char *file = g_strdup_printf("%s-%.16s%s", name, hash, extension);
-  return g_build_filename(g_get_user_data_dir(), "spore", "attempts", file, NULL);
+  return spore_scene_place(scene, "attempts", extension);
 }
 
 static char *file_of(const char *scene) { return place_of(scene, ".csv"); }
