@@ -191,6 +191,8 @@ typedef struct SporeLensState {
 /* Number of lenses: one of each eye, in the order of the description. */
 size_t spore_world_lens_count(const SporeWorld *world);
 SporeLensState spore_world_lens(const SporeWorld *world, size_t lens);
+/* The body that carries the lens; SPORE_NO_BODY: none does. */
+uint32_t spore_world_lens_body(const SporeWorld *world, size_t lens);
 /* Gives the lenses of `to` what is on those of `from`, where there are as many. */
 void spore_world_carry_lenses(SporeWorld *to, const SporeWorld *from);
 /* Gives a body of `to` the stain that body `old` of `from` has, where the places are the same. */

@@ -24,7 +24,8 @@ static const char scene_text[] =
     "<body name=\"probe\" role=\"active\" position=\"0.2 0 0\" rotation=\"0.1 0.7 0.3\"><collision spheres=\"ball\"/>"
     "</body>\n"
     "</bodies>\n"
-    "<tools><probe name=\"tool\" body=\"probe\" device=\"hand\"/></tools>\n"
+    "<tools><probe name=\"tool\" body=\"probe\" device=\"hand\"/><camera name=\"eye\" body=\"probe\" "
+    "lens=\"0.005\"/></tools>\n"
     "<devices><mouse name=\"hand\"/></devices>\n"
     "</spore>\n";
 
@@ -460,6 +461,46 @@ static void test_way_ends(Fixture *fixture, gconstpointer data) {
   spore_session_free(session); /* at once */
 }
 
+/* How many samples press the button that wipes, all of them between the two times. */
+static guint wiping_samples(SporeSession *session, double from_s, double to_s) {
+  SporeTrack *recording = spore_session_recording(session);
+  const SporeTrackChannel *channel = spore_track_channel(recording, "probe");
+  guint wiping = 0;
+  for (size_t i = 0; channel && i < channel->count; i++) {
+    if (!(channel->states[i].buttons & SPORE_FIRST_BUTTON)) continue;
+    g_assert_true(channel->time_s[i] >= from_s && channel->time_s[i] <= to_s);
+    wiping++;
+  }
+  free_track(recording);
+  return wiping;
+}
+
+/* A wipe by a command goes into the recording, also as the run is played once more, and moves nothing. A lens that
+ * there is not leaves no trace. */
+static void test_recording_wipes(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, data ? &fixture->track : NULL);
+  const SporeCommand other = {.kind = SPORE_COMMAND_WIPE, .number = 7}, wipe = {.kind = SPORE_COMMAND_WIPE};
+  spore_session_step(session, 30);
+  g_assert_true(spore_session_post(session, &other));
+  spore_session_step(session, 10);
+  g_assert_cmpuint(wiping_samples(session, 0, 0), ==, 0);
+  g_assert_true(spore_session_post(session, &wipe));
+  spore_session_step(session, 110);
+  guint wiping = wiping_samples(session, 0.0399, 0.1401);
+  guint64 expected = spore_snapshot_hash(spore_session_snapshot(session));
+  g_assert_cmpuint(wiping, >=, 2);
+  SporeTrack *recording = spore_session_recording(session);
+  g_assert_cmphex(loop_hash(fixture, recording, 150), ==, expected);
+  free_track(recording);
+  hash_after(session, 0);
+  g_assert_cmphex(hash_after(session, 150), ==, expected);
+  g_assert_cmpuint(wiping_samples(session, 0.0399, 0.1401), ==, wiping);
+  spore_session_reset(session);
+  spore_session_step(session, 50);
+  g_assert_cmpuint(wiping_samples(session, 0, 0), ==, 0);
+  spore_session_free(session);
+}
+
 static void test_recording_keeps_track(Fixture *fixture, gconstpointer data) {
   SporeSession *session = new_session(fixture, 1, &fixture->track);
   spore_session_step(session, 30);
@@ -603,6 +644,8 @@ int main(int argc, char **argv) {
       {"pointer-takes-over", test_pointer_takes_over},
       {"recording-repeats", test_recording_repeats},
       {"recording-repeats-taken-over", test_recording_repeats, TRUE},
+      {"recording-wipes", test_recording_wipes},
+      {"recording-wipes-track", test_recording_wipes, TRUE},
       {"recording-keeps-track", test_recording_keeps_track},
       {"goes-back", test_goes_back},
       {"goes-back-taken-over", test_goes_back, TRUE},

@@ -20,6 +20,8 @@
 #define MOST_ROWS 4096
 /* Steps between two looks at what was not solved. */
 #define STEPS_A_LOOK 16
+/* How long the recording holds the button that wipes a lens: longer than from one look at lenses to the next. */
+#define WIPE_S 0.1
 /* How long the window waits for a step that may take minutes. */
 #define PATIENCE_US (G_USEC_PER_SEC / 20)
 
@@ -40,6 +42,8 @@ typedef struct {
   gboolean led, driven; /* by the pointer; by any device */
 
   SporeDeviceState input; /* last state; guarded by the session's mutex */
+  double wiping_s;        /* until then, simulated, a command wipes the lens that the body carries; the same */
+  gboolean wiped;         /* it has been since time 0; the same */
 } Recorder;
 
 /* Opening of the jaws for a hand that nobody has moved yet; wider than any jaws. */
@@ -170,6 +174,13 @@ static void keep_sample(SporeTrackChannel *channel, const SporePastInput *sample
   else spore_track_append(channel, sample->time_s, &sample->state);
 }
 
+/* A track has no commands: a lens that a command wiped is wiped there by the button that does the same. */
+static SporePastInput as_recorded(const Recorder *recorder, const SporePastInput *sample) {
+  SporePastInput recorded = *sample;
+  if (sample->time_s < recorder->wiping_s) recorded.state.buttons |= SPORE_FIRST_BUTTON;
+  return recorded;
+}
+
 /* Called between steps with the mutex held. */
 static void drain_recorders(SporeSession *session) {
   for (guint i = 0; i < session->recorder_count; i++) {
@@ -179,7 +190,8 @@ static void drain_recorders(SporeSession *session) {
     SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
     if (!channel) channel = spore_track_add_channel(&session->recording, name);
     for (guint s = 0; s < recorder->count; s++) {
-      if (channel) keep_sample(channel, &recorder->samples[s]);
+      SporePastInput recorded = as_recorded(recorder, &recorder->samples[s]);
+      if (channel) keep_sample(channel, &recorded);
       if (!session->going) spore_past_add(session->past, i, &recorder->samples[s]);
     }
     if (recorder->driven) recorder->input = recorder->samples[recorder->count - 1].state;
@@ -358,7 +370,8 @@ static void restart(SporeSession *session) {
     spore_pointer_device_release(recorder->pointer);
     recorder->repeats = NULL;
     recorder->count = 0;
-    recorder->led = FALSE;
+    recorder->led = recorder->wiped = FALSE;
+    recorder->wiping_s = 0;
     recorder->input = OPEN_HAND;
   }
   spore_track_clear(&session->recording);
@@ -399,6 +412,22 @@ static void end_way(SporeSession *session) {
   restart_pace(session);
 }
 
+static Recorder *recorder_of(const SporeSession *session, guint32 body) {
+  for (guint i = 0; i < session->recorder_count; i++)
+    if (session->recorders[i].body == body) return &session->recorders[i];
+  return NULL;
+}
+
+/* With the mutex held: the next step applies the command. */
+static void note_wipe(SporeSession *session, const SporeCommand *command) {
+  const SporeWorld *world = session->simulation->world;
+  if (command->kind != SPORE_COMMAND_WIPE || !(command->number < (double)spore_world_lens_count(world))) return;
+  Recorder *recorder = recorder_of(session, spore_world_lens_body(world, (gsize)fmax(command->number, 0)));
+  if (!recorder) return;
+  recorder->wiping_s = spore_world_time_s(world) + WIPE_S;
+  recorder->wiped = TRUE;
+}
+
 /* One step of the way, or its end. */
 static void take_way(SporeSession *session) {
   SporeWorld *world = session->simulation->world;
@@ -406,8 +435,10 @@ static void take_way(SporeSession *session) {
   guint64 step = spore_world_step_count(world);
   gboolean there = session->stays || step >= session->target;
   const SporeCommand *command;
-  for (guint i = 0; !there && (command = spore_past_command(session->past, step, i)); i++)
+  for (guint i = 0; !there && (command = spore_past_command(session->past, step, i)); i++) {
+    note_wipe(session, command);
     spore_world_post(world, command);
+  }
   if (!there) take_step(session);
   if (there || spore_world_cancelled(world)) end_way(session);
 }
@@ -703,15 +734,12 @@ gboolean spore_session_post(SporeSession *session, const SporeCommand *command) 
   spore_session_try_out(session);
   g_mutex_lock(&session->mutex);
   gboolean posted = !session->going && spore_world_post(world, command);
-  if (posted) spore_past_post(session->past, spore_world_commands_posted(world), command);
+  if (posted) {
+    note_wipe(session, command);
+    spore_past_post(session->past, spore_world_commands_posted(world), command);
+  }
   g_mutex_unlock(&session->mutex);
   return posted;
-}
-
-static Recorder *recorder_of(const SporeSession *session, guint32 body) {
-  for (guint i = 0; i < session->recorder_count; i++)
-    if (session->recorders[i].body == body) return &session->recorders[i];
-  return NULL;
 }
 
 void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state) {
@@ -861,8 +889,9 @@ SporeTrack *spore_session_recording(SporeSession *session) {
   for (guint i = 0; i < session->recorder_count; i++) {
     const Recorder *recorder = &session->recorders[i];
     const char *name = spore_world_body_name(world, recorder->body);
-    /* Tracks of bodies that the mouse did not take stay as the scene has them. */
-    const SporeTrack *from = recorder->script && !recorder->led ? session->simulation->track : &session->recording;
+    /* Tracks of bodies that the mouse did not take stay as the scene has them, but where their lens was wiped. */
+    gboolean stays = recorder->script && !recorder->led && !recorder->wiped;
+    const SporeTrack *from = stays ? session->simulation->track : &session->recording;
     const SporeTrackChannel *channel = spore_track_channel(from, name);
     if (channel) copy_channel(copy, channel);
   }

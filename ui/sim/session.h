@@ -104,7 +104,8 @@ char *spore_session_csv(SporeSession *session, size_t *size);
  * point; the points before are watched on. */
 gboolean spore_session_watch(SporeSession *session, const SporeWatchRequest *points, gsize count, GError **error);
 
-/* A copy of all device states so far. Free with spore_track_clear and g_free. */
+/* A copy of all device states so far; a lens that a command wiped is wiped in it by its device's button. Free with
+ * spore_track_clear and g_free. */
 SporeTrack *spore_session_recording(SporeSession *session);
 
 #endif

@@ -177,6 +177,11 @@ SporeLensState spore_world_lens(const SporeWorld *world, size_t lens) {
   return world->lenses.state[lens];
 }
 
+uint32_t spore_world_lens_body(const SporeWorld *world, size_t lens) {
+  assert(lens < world->lenses.count);
+  return world->lenses.all[lens].body;
+}
+
 void spore_world_carry_lenses(SporeWorld *to, const SporeWorld *from) {
   size_t count = to->lenses.count;
   if (count > 0 && count == from->lenses.count)

@@ -59,8 +59,6 @@ void spore_world_feed_back_tools(SporeWorld *world);
 const char *spore_tool_point_fault(const double point[3]);
 /* A direction of the world at time 0, as a unit vector in the frame of a body. */
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]);
-/* Buttons of a device, as bits. */
-enum { SPORE_FIRST_BUTTON = 1, SPORE_SECOND_BUTTON = 2 };
 /* Whether that button of the device that moves the body is down. */
 bool spore_tool_button(const SporeWorld *world, uint32_t body, uint32_t button);
 

@@ -102,6 +102,8 @@ typedef struct SporeJawFields {
   int trigger;               /* SporeTrigger */
 } SporeJawFields;
 
+/* Buttons of a device, as bits. */
+enum { SPORE_FIRST_BUTTON = 1, SPORE_SECOND_BUTTON = 2 };
 /* When particles flow. Suction knows the first two. In this order they are in the file. */
 typedef enum SporeFlowTrigger {
   SPORE_FLOW_ALWAYS,
