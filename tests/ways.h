@@ -6,17 +6,16 @@
 #include <glib.h>
 #include <stdbool.h>
 
-/* Notes allocations from here on, until ways_end. */
-void ways_begin(void);
-/* Numbers, from 1 and ascending, of the first and of the last allocation on each way since ways_begin by which the
- * program had not come before. count: ways that were noted; may be NULL. g_array_unref; of guint64. */
-GArray *ways_end(guint *count);
-/* What a program does with memory; false with an error. */
+/* What a program does with memory; false with an error. It does the same each time, on one thread. */
 typedef bool WaysWork(GError **error);
-/* Lets allocations of `work` fail, one in each run: the first and the last on each new way, of which `most` are chosen
- * evenly. Asserts that it works when none fails, that it otherwise does without or refuses for want of memory, and
- * that it refused at least once. */
-void ways_fail_each(WaysWork *work, guint most);
+/* Lets allocations of `work` fail: the first and the last on each new way. Each fails in a twin of the program (fork),
+ * which goes on from there, so that the way there is gone once. Asserts that the work is done when none fails, that
+ * otherwise it does without or refuses for want of memory, that it refused at least once if any failed, and that
+ * nothing was lost (the sanitizer looks). */
+void ways_fail_each(WaysWork *work);
+/* The same for work that talks to other processes, which have no twins: it is done anew for each allocation, of which
+ * `most` are chosen evenly. */
+void ways_fail_again(WaysWork *work, guint most);
 /* Forgets all. */
 void ways_clear(void);
 

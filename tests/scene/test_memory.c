@@ -14,13 +14,6 @@
 
 #define STEPS 8
 
-/* What happened in a life of a scene. */
-typedef struct Life {
-  gboolean read, made;
-  guint64 allocations;
-  guint64 hash; /* at the end; 0: it was not made */
-} Life;
-
 typedef struct Scene {
   char *file;
   guint64 allocations; /* of a whole life */
@@ -41,10 +34,6 @@ static void run(SporeWorld *world) {
   }
 }
 
-static void expect_memory(const GError *error) {
-  if (!g_error_matches(error, SPORE_ERROR, SPORE_ERROR_MEMORY)) g_error("not for want of memory: %s", error->message);
-}
-
 /* Fewer particles and cells: to look for what lies inside a surface takes most of the time, and all go the same way. */
 static void coarsen(SporeDocument *document) {
   static const struct { const char *name, *value; } settings[] = {{"particles", "120"}, {"cells", "5"}};
@@ -59,54 +48,34 @@ static void coarsen(SporeDocument *document) {
   }
 }
 
-/* Reads, makes and runs the scene; the allocation of that number fails (0: none). */
-static Life live(SporeSchema *schema, const char *file, guint64 failing) {
-  Life life = {0};
-  GError *error = NULL;
-  guint64 start = spore_allocation_count();
-  spore_allocation_fail_at(failing);
-  SporeDocument *document = spore_scene_load(schema, file, &error);
-  life.read = document != NULL;
-  if (document) coarsen(document);
-  SporePool *pool = document ? spore_pool_create(1) : NULL;
-  SporeSimulation *simulation = pool ? spore_simulation_new(document, pool, NULL, NULL, &error) : NULL;
-  life.made = simulation != NULL;
-  if (life.made) run(simulation->world);
-  spore_allocation_fail_at(0);
-  life.allocations = spore_allocation_count() - start;
-  if (life.made) life.hash = spore_world_hash(simulation->world);
-  else if (error) expect_memory(error);
-  else g_assert_null(pool);
-  g_clear_error(&error);
-  g_clear_pointer(&simulation, spore_simulation_free);
-  spore_pool_free(pool);
-  g_clear_pointer(&document, spore_document_free);
-  return life;
+static SporeSchema *schema;
+static const char *file; /* of the scene that lives */
+
+static bool live_in(SporeDocument *document, SporePool *pool, GError **error) {
+  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, NULL, error);
+  if (!simulation) return false;
+  run(simulation->world);
+  spore_simulation_free(simulation);
+  return true;
 }
 
-/* The allocations that are to fail, each once. */
-static GArray *choose(SporeSchema *schema, const char *file, Life *whole) {
-  ways_begin();
-  *whole = live(schema, file, 0);
-  return ways_end(NULL);
+/* Reads, makes and runs the scene. */
+static bool live(GError **error) {
+  SporeDocument *document = spore_scene_load(schema, file, error);
+  if (!document) return false;
+  coarsen(document);
+  SporePool *pool = spore_pool_create(1);
+  bool lived = pool ? live_in(document, pool, error)
+                    : spore_error_raise(error, SPORE_ERROR_MEMORY, file, "there is no memory for a pool of threads");
+  spore_pool_free(pool);
+  spore_document_free(document);
+  return lived;
 }
 
 static void test_scene(gconstpointer data) {
   const Scene *scene = data;
-  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
-  Life whole;
-  guint refused = 0, as_ever = 0;
-  g_autoptr(GArray) failing = choose(schema, scene->file, &whole);
-  g_assert_true(whole.made);
-  for (guint i = 0; i < failing->len; i++) {
-    Life life = live(schema, scene->file, g_array_index(failing, guint64, i));
-    refused += !life.made;
-    as_ever += life.hash == whole.hash;
-  }
-  g_test_message("%u of %llu allocations failed: %u times refused, %u times the same end", failing->len,
-                 (unsigned long long)whole.allocations, refused, as_ever);
-  if (failing->len > 0) g_assert_cmpuint(refused, >, 0);
-  spore_schema_free(schema);
+  file = scene->file;
+  ways_fail_each(live);
 }
 
 static int compare_scenes(gconstpointer a, gconstpointer b) {
@@ -121,26 +90,34 @@ static void free_scene(gpointer data) {
   g_free(scene);
 }
 
+static guint64 count_allocations(const char *of) {
+  GError *error = NULL;
+  guint64 before = spore_allocation_count();
+  file = of;
+  g_assert_true(live(&error));
+  g_assert_no_error(error);
+  return spore_allocation_count() - before;
+}
+
 /* The shipped scenes, the one with the fewest allocations first. */
 static GPtrArray *list_scenes(void) {
   GPtrArray *scenes = g_ptr_array_new_with_free_func(free_scene);
-  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   g_autoptr(GDir) folder = g_dir_open(SPORE_SCENES, 0, NULL);
   g_assert_nonnull(folder);
   for (const char *name; (name = g_dir_read_name(folder));) {
     if (!g_str_has_suffix(name, ".spore")) continue;
     Scene *scene = g_new0(Scene, 1);
     scene->file = g_build_filename(SPORE_SCENES, name, NULL);
-    scene->allocations = live(schema, scene->file, 0).allocations;
+    scene->allocations = count_allocations(scene->file);
     g_ptr_array_add(scenes, scene);
   }
   g_ptr_array_sort(scenes, compare_scenes);
-  spore_schema_free(schema);
   return scenes;
 }
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   g_autoptr(GPtrArray) scenes = list_scenes();
   for (guint i = 0; i < scenes->len; i++) {
     const Scene *scene = scenes->pdata[i];
@@ -149,5 +126,6 @@ int main(int argc, char **argv) {
   }
   int status = g_test_run();
   ways_clear();
+  spore_schema_free(schema);
   return status;
 }
