@@ -13,7 +13,16 @@ static void tell_kept(SporeWindow *self, const GPtrArray *left_out) {
   spore_window_complain_while(self, SPORE_CAUSE_EDIT, text, _("Undo"), "win.undo");
 }
 
-/* A run that plays is paused: what is kept is what is seen then. */
+static void kept(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  g_autoptr(GError) failure = NULL;
+  if (spore_window_failed(self, error) || !self->document) return;
+  if (spore_pose_work_apply(data, spore_editor_document_get(self->document), &failure))
+    tell_kept(self, spore_pose_work_left_out(data));
+  else spore_window_failed(self, failure);
+}
+
+/* A run that plays is paused: what is kept is what is seen then. Its files are written apart from the window. */
 static void act_keep_pose(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeSession *session = spore_player_get_session(self->player);
@@ -23,11 +32,10 @@ static void act_keep_pose(GSimpleAction *action, GVariant *parameter, gpointer d
     spore_window_complain(self, _("a step is still under way; wait until it has ended"));
     return;
   }
-  g_autoptr(GPtrArray) left_out = g_ptr_array_new_with_free_func(g_free);
   g_autoptr(GError) error = NULL;
-  if (spore_edit_keep_pose(spore_editor_document_get(self->document), spore_session_simulation(session), left_out,
-                           &error))
-    tell_kept(self, left_out);
+  SporePoseWork *work =
+      spore_pose_work_new(spore_editor_document_get(self->document), spore_session_simulation(session), &error);
+  if (work) spore_window_start_job(self, _("Keeping the pose"), spore_pose_work_run, work, spore_pose_work_free, kept);
   else spore_window_failed(self, error);
 }
 

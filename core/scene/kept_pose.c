@@ -8,7 +8,8 @@
 #include "core/base/hash.h"
 
 #define HEAD "spore-pose 1\n"
-#define FRAME 7 /* numbers of a frame: position, quaternion wxyz */
+#define NUMBERS_A_LOOK 4096 /* between two looks at whether to go on */
+#define FRAME 7             /* numbers of a frame: position, quaternion wxyz */
 
 /* Doubles in the q of a body, without those of spare nodes. */
 static gsize numbers_of(const SporeModel *model) { return model ? model->q_count - 3 * model->spare_count : FRAME; }
@@ -35,17 +36,31 @@ static void append_number(GString *text, double number, char after) {
   g_string_append_c(text, after);
 }
 
-char *spore_kept_pose_format(const SporeModel *model, SporePose frame, const double *q, gsize *size) {
-  const double at[FRAME] = {frame.position.x,    frame.position.y,    frame.position.z,   frame.orientation.w,
-                            frame.orientation.x, frame.orientation.y, frame.orientation.z};
-  gsize count = numbers_of(model);
-  GString *text = g_string_new(HEAD);
-  g_string_append_printf(text, "of %016" G_GINT64_MODIFIER "x\nat ", hash_of(model));
+SporeKeptPose spore_kept_pose_take(const SporeModel *model, SporePose frame, const double *q) {
+  SporeKeptPose pose = {.hash = hash_of(model), .frame = frame, .count = numbers_of(model)};
+  pose.q = g_memdup2(q, pose.count * sizeof *q);
+  return pose;
+}
+
+void spore_kept_pose_clear(SporeKeptPose *pose) { g_clear_pointer(&pose->q, g_free); }
+
+char *spore_kept_pose_format(const SporeKeptPose *pose, const SporeProgress *progress, gsize *size, GError **error) {
+  const SporePose *frame = &pose->frame;
+  const double at[FRAME] = {frame->position.x,    frame->position.y,    frame->position.z,   frame->orientation.w,
+                            frame->orientation.x, frame->orientation.y, frame->orientation.z};
+  g_autoptr(GString) text = g_string_new(HEAD);
+  g_string_append_printf(text, "of %016" G_GINT64_MODIFIER "x\nat ", pose->hash);
   for (int i = 0; i < FRAME; i++) append_number(text, at[i], i < FRAME - 1 ? ' ' : '\n');
-  g_string_append_printf(text, "numbers %" G_GSIZE_FORMAT "\n", count);
-  for (gsize i = 0; i < count; i++) append_number(text, q[i], '\n');
+  g_string_append_printf(text, "numbers %" G_GSIZE_FORMAT "\n", pose->count);
+  for (gsize i = 0; i < pose->count; i++) {
+    if (i % NUMBERS_A_LOOK == 0 && !spore_progress(progress, (double)i / (double)pose->count, NULL)) {
+      spore_error_raise(error, SPORE_ERROR_CANCELLED, NULL, "%s", _("cancelled"));
+      return NULL;
+    }
+    append_number(text, pose->q[i], '\n');
+  }
   *size = text->len;
-  return g_string_free(text, FALSE);
+  return g_string_free(g_steal_pointer(&text), FALSE);
 }
 
 /* Reading. */

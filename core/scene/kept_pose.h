@@ -3,6 +3,7 @@
 #ifndef SPORE_SCENE_KEPT_POSE_H
 #define SPORE_SCENE_KEPT_POSE_H
 
+#include "core/base/progress.h"
 #include "core/body/model.h"
 #include "core/scene/document.h"
 
@@ -12,11 +13,21 @@ typedef enum SporeKeptPoseState {
   SPORE_POSE_STALE  /* the pose is of another shape, model or number of nodes */
 } SporeKeptPoseState;
 
-/* A pose as a file: a line "spore-pose 1", a line "of HASH", a line "at X Y Z W X Y Z" with the body's frame (m, and a
- * quaternion wxyz) and a line "numbers N", then N lines with a number each, as spore_world_q gives them without spare
- * nodes, all to the bit. model: at the level of detail at which the body begins; NULL: physics does not move the body.
- * g_free. */
-char *spore_kept_pose_format(const SporeModel *model, SporePose frame, const double *q, gsize *size);
+/* A pose that was taken from a run. */
+typedef struct SporeKeptPose {
+  guint64 hash; /* of what it is a pose of */
+  SporePose frame;
+  gsize count;
+  double *q; /* count */
+} SporeKeptPose;
+/* Takes it: q as spore_world_q gives it, of which spare nodes are left out. model: at the level of detail at which the
+ * body begins; NULL: physics does not move the body. Free with spore_kept_pose_clear. */
+SporeKeptPose spore_kept_pose_take(const SporeModel *model, SporePose frame, const double *q);
+void spore_kept_pose_clear(SporeKeptPose *pose);
+/* The pose as a file: a line "spore-pose 1", a line "of HASH", a line "at X Y Z W X Y Z" with the body's frame (m, and
+ * a quaternion wxyz) and a line "numbers N", then N lines with a number each, all to the bit. g_free. Takes long where
+ * there are many, on any thread. NULL with a GError: cancelled. */
+char *spore_kept_pose_format(const SporeKeptPose *pose, const SporeProgress *progress, gsize *size, GError **error);
 /* Reads the pose that the body names. frame: where the body's frame stands; nodes go with it where the scene has moved
  * it since. q: *count numbers, g_free; NULL where the state is not FRESH. FALSE with a GError: the file cannot be read,
  * is no pose, has too few numbers or some that are not finite, or turns tetrahedra inside out. */

@@ -71,7 +71,7 @@ static void test_kinds(void) {
     g_autoptr(GError) error = NULL;
     SporeSimulation *ran = simulate(document);
     for (int step = 0; step < 10; step++) spore_world_step(ran->world);
-    g_assert_true(spore_edit_keep_pose(document, ran, left_out, &error));
+    g_assert_true(spore_edit_keep_pose(document, ran, NULL, left_out, &error));
     g_assert_no_error(error);
     g_assert_cmpuint(left_out->len, ==, 0);
     SporeSimulation *begun = simulate(document);
@@ -166,6 +166,30 @@ static void test_damaged(void) {
   spore_document_free(document);
 }
 
+static bool refuse_to_go_on(void *data, double fraction, const char *stage) {
+  (*(guint *)data)++;
+  return false;
+}
+
+/* Who cancels gets the scene as it was. */
+static void test_cancelled(void) {
+  SporeDocument *document = load("minimal");
+  g_autofree char *before = fixture_format(document);
+  g_autoptr(GPtrArray) left_out = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GError) error = NULL;
+  SporeSimulation *ran = simulate(document);
+  guint asked = 0;
+  const SporeProgress progress = {refuse_to_go_on, &asked, NULL};
+  for (int step = 0; step < 10; step++) spore_world_step(ran->world);
+  g_assert_false(spore_edit_keep_pose(document, ran, &progress, left_out, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
+  g_assert_cmpuint(asked, ==, 1);
+  g_autofree char *after = fixture_format(document);
+  g_assert_cmpstr(after, ==, before);
+  spore_simulation_free(ran);
+  spore_document_free(document);
+}
+
 /* A tetrahedron that is inside out is not one to begin with, in a file or from a run. */
 static void test_inverted(void) {
   FixtureScene scene = fixture_scene_new(
@@ -180,7 +204,7 @@ static void test_inverted(void) {
   g_autofree double *v = g_new0(double, 3 * model->block_count);
   for (gsize i = 0; i < model->node_count; i++) q[3 * i] = -q[3 * i]; /* as in a mirror */
   spore_world_set_state(ran->world, 0, q, v);
-  g_assert_false(spore_edit_keep_pose(scene.document, ran, left_out, &error));
+  g_assert_false(spore_edit_keep_pose(scene.document, ran, NULL, left_out, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "inside out");
   spore_simulation_free(ran);
   fixture_scene_free(&scene);
@@ -209,6 +233,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/pose/kinds", test_kinds);
   g_test_add_func("/pose/belongs", test_belongs);
   g_test_add_func("/pose/damaged", test_damaged);
+  g_test_add_func("/pose/cancelled", test_cancelled);
   g_test_add_func("/pose/inverted", test_inverted);
   g_test_add_func("/pose/jaws", test_jaws);
   return g_test_run();
