@@ -79,8 +79,9 @@ static int by_size(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-static void draw(const Moving *moving) {
-  const SporeRenderOptions options = {.width = WIDTH, .height = HEIGHT, .grid = TRUE, .coarse = TRUE};
+static void draw(const Moving *moving, int coarseness) {
+  const SporeRenderOptions options = {
+      .width = WIDTH / coarseness, .height = HEIGHT / coarseness, .grid = TRUE, .coarse = TRUE};
   g_autoptr(GError) error = NULL;
   if (moving->organ) spore_renderer_move_surface(moving->renderer, moving->surface, moving->organ->vertices);
   else spore_stage_update(moving->stage, spore_world_snapshot_acquire(moving->world));
@@ -88,21 +89,31 @@ static void draw(const Moving *moving) {
     g_error("%s", error->message);
 }
 
-static void tell(const char *what, const Moving *moving) {
+/* Coarse pictures are those of something that moves (ui/render/sharpness.h): their row says what share of the
+ * processors' time of sharp ones they take. */
+static double tell_at(const char *what, const Moving *moving, int coarseness) {
   static double wall_ms[FRAMES], processor_ms[FRAMES];
-  draw(moving); /* compiles the programs */
+  draw(moving, coarseness); /* compiles the programs */
   for (int frame = 0; frame < FRAMES; frame++) {
     if (moving->organ) moving->organ->vertices[1] += 1e-6;
     for (int step = 0; moving->world && step < STEPS; step++) spore_world_step(moving->world);
     guint64 start_ns = spore_clock_ns();
     double start_s = processor_s();
-    draw(moving);
+    draw(moving, coarseness);
     wall_ms[frame] = (double)(spore_clock_ns() - start_ns) / 1e6;
     processor_ms[frame] = 1e3 * (processor_s() - start_s);
   }
   qsort(wall_ms, FRAMES, sizeof *wall_ms, by_size);
   qsort(processor_ms, FRAMES, sizeof *processor_ms, by_size);
   printf("%s: %.3f ms\n%s, of processors: %.3f ms\n", what, wall_ms[FRAMES / 2], what, processor_ms[FRAMES / 2]);
+  return processor_ms[FRAMES / 2];
+}
+
+static void tell(const char *what, const Moving *moving) {
+  double sharp_ms = tell_at(what, moving, 1);
+  g_autofree char *coarse = g_strdup_printf("%s, half as sharp", what);
+  printf("%s, of sharp: %.2f\n", coarse, tell_at(coarse, moving, 2) / sharp_ms);
+  fflush(stdout);
 }
 
 static void tell_organ(SporeOffscreen *offscreen, guint32 rings, guint32 sectors, gboolean spheres) {

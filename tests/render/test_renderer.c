@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "tests/render/scenery.h"
+#include "ui/render/sharpness.h"
 
 static const float red[3] = {0.7f, 0.02f, 0.02f}, blue[3] = {0.02f, 0.02f, 0.7f};
 
@@ -594,6 +595,25 @@ static void test_lens(void) {
   g_assert_cmpfloat_with_epsilon(hypot(corner_x - 320, corner_y - 180) / off, 0.8, 1e-6);
 }
 
+/* Pictures of something that moves are coarse where a sharp one takes long, and only then; the last one is sharp. */
+static void test_sharpness(void) {
+  for (int slow = 0; slow < 2; slow++) {
+    SporeSharpness sharpness = {0};
+    gint64 now_us = 1000000, takes_us = slow ? 60000 : 20000;
+    for (int picture = 0; picture < 6; picture++) {
+      g_assert_cmpint(spore_sharpness_begin(&sharpness, now_us), ==, slow && picture >= 2 ? 2 : 1);
+      spore_sharpness_drawn(&sharpness, now_us += sharpness.coarse ? takes_us / 4 : takes_us);
+      now_us += 16000;
+    }
+    g_assert_true(sharpness.coarse == slow);
+    spore_sharpness_rest(&sharpness);
+    g_assert_cmpint(spore_sharpness_begin(&sharpness, now_us), ==, 1);
+    spore_sharpness_drawn(&sharpness, now_us += takes_us);
+    now_us += spore_sharpness_rest_us;
+    g_assert_cmpint(spore_sharpness_begin(&sharpness, now_us), ==, 1);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/renderer/lens", test_lens);
@@ -610,6 +630,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/begun-and-read", test_begun_and_read);
   g_test_add_func("/render/renderer/prepared-on-a-thread", test_prepared_on_a_thread);
   g_test_add_func("/render/renderer/own-programs", test_own_programs);
+  g_test_add_func("/render/renderer/sharpness", test_sharpness);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/clear", test_clear);

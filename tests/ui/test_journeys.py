@@ -1346,13 +1346,14 @@ def let_time_pass(editor, seconds=0.05):
 
 @check
 def play_pause_step_reset():
-    """time advances while playing, stands while paused, goes one step, back, to a bookmark, through it all again, and back to 0; what is seen is kept as the beginning; where the scene was changed meanwhile it does not go back, and says so."""
+    """time advances while playing, stands while paused, where its picture is sharp, goes one step, back, to a bookmark, through it all again, and back to 0; what is seen is kept as the beginning; where the scene was changed meanwhile it does not go back, and says so."""
     with start() as editor:
         make_soft_ball(editor)
         editor.act("play")
         ui.wait(lambda: (editor.time_s() or 0) > 0.02, "time to advance")
         editor.act("pause")
         stood = standing_time(editor)
+        ui.wait(lambda: not editor.says("label", "half as sharp"), "a sharp picture of what stands")
         editor.act("step")
         ui.wait(lambda: 0 < editor.time_s() - stood < 0.0051, "one step")
         editor.act("step-back")

@@ -306,6 +306,13 @@ static void append_triangles(GString *text, SporeViewport *self) {
   g_string_append_printf(text, _("Plain pictures: %zu of %zu triangles are drawn"), coarse, whole);
 }
 
+/* Whether a picture of something that moves has fewer pixels than the view. */
+static void append_sharpness(GString *text, SporeViewport *self) {
+  if (!self->picture.coarse) return;
+  if (text->len > 0) g_string_append_c(text, '\n');
+  g_string_append(text, _("Plain pictures: half as sharp while something moves"));
+}
+
 /* What an author wants to know, and a clinician does not. */
 static void append_figures(GString *text, SporeViewport *self, const SporeSession *session,
                            const SporeSnapshot *snapshot, const SporeSessionFigures *figures) {
@@ -352,14 +359,10 @@ static void append_opening(GString *text, SporeViewport *self) {
   else g_string_append_printf(text, _("open %.0f°"), opening * 180 / G_PI);
 }
 
-void spore_viewport_overlay_update(SporeViewport *self) {
-  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
-  gtk_widget_set_visible(self->hud, session != NULL);
-  if (!session) return;
+static void append_run(GString *text, SporeViewport *self, SporeSession *session) {
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
   const SporeWorld *world = spore_session_simulation(session)->world;
   SporeSessionFigures figures = spore_session_figures(session);
-  GString *text = g_string_new(NULL);
   g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
   append_pace(text, spore_session_real_time_factor(session), spore_session_get_speed(session));
   append_tools(text, snapshot);
@@ -372,8 +375,15 @@ void spore_viewport_overlay_update(SporeViewport *self) {
   }
   append_unsolved(text, world, &figures);
   if (self->figures) append_figures(text, self, session, snapshot, &figures);
-  gtk_label_set_text(GTK_LABEL(self->hud), text->str);
-  g_string_free(text, TRUE);
+}
+
+void spore_viewport_overlay_update(SporeViewport *self) {
+  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
+  g_autoptr(GString) text = g_string_new(NULL);
+  if (session) append_run(text, self, session);
+  append_sharpness(text, self);
+  gtk_widget_set_visible(self->hud, text->len > 0);
+  if (text->len > 0) gtk_label_set_text(GTK_LABEL(self->hud), text->str);
 }
 
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures) {

@@ -11,19 +11,57 @@
 #define LOOK_MS 4
 
 static gboolean is_of_size(const SporeViewportPicture *picture, int width, int height) {
-  return picture->pixels && cairo_image_surface_get_width(picture->pixels) == width &&
-         cairo_image_surface_get_height(picture->pixels) == height;
+  return picture->pixels && picture->width == width && picture->height == height;
 }
 
-static void fit(SporeViewportPicture *picture, int width, int height) {
-  if (is_of_size(picture, width, height)) return;
+static int coarse_side(int side, int coarseness) { return (side + coarseness - 1) / coarseness; }
+
+/* The picture has the pixels for an area of that size. */
+static void fit(SporeViewportPicture *picture, int width, int height, int coarseness) {
+  int across = coarse_side(width, coarseness), down = coarse_side(height, coarseness);
+  picture->width = width, picture->height = height;
+  if (picture->pixels && cairo_image_surface_get_width(picture->pixels) == across &&
+      cairo_image_surface_get_height(picture->pixels) == down)
+    return;
   g_clear_pointer(&picture->pixels, cairo_surface_destroy);
-  picture->pixels = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  picture->pixels = cairo_image_surface_create(CAIRO_FORMAT_RGB24, across, down);
 }
 
 void spore_viewport_drop_drawing(SporeViewport *self) {
   g_clear_handle_id(&self->drawing.look, g_source_remove);
   self->drawing.of = NULL;
+}
+
+void spore_viewport_clear_picture(SporeViewportPicture *picture) {
+  g_clear_handle_id(&picture->rest, g_source_remove);
+  g_clear_pointer(&picture->pixels, cairo_surface_destroy);
+}
+
+/* What a coarse picture showed has come to rest. */
+static gboolean sharpen(SporeViewport *self, SporeViewportPicture *picture, GtkWidget *area) {
+  picture->rest = 0;
+  spore_sharpness_rest(&picture->sharpness);
+  picture->stale = TRUE;
+  gtk_widget_queue_draw(area);
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean sharpen_large(gpointer data) {
+  SporeViewport *self = data;
+  return sharpen(self, &self->picture, self->area);
+}
+
+static gboolean sharpen_second(gpointer data) {
+  SporeViewport *self = data;
+  return sharpen(self, &self->second_picture, self->second_area);
+}
+
+/* A coarse picture is drawn again once it rests. */
+static void mind_sharpness(SporeViewport *self, SporeViewportPicture *picture, gboolean coarse) {
+  picture->coarse = coarse;
+  if (!coarse) return;
+  picture->rest = g_timeout_add((guint)(spore_sharpness_rest_us / 1000),
+                                picture == &self->picture ? sharpen_large : sharpen_second, self);
 }
 
 gboolean spore_viewport_is_fine(SporeViewport *self) {
@@ -42,13 +80,17 @@ static void begin(SporeViewport *self, SporeViewportPicture *picture, const Spor
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;
   gint64 now = g_get_monotonic_time();
+  int coarseness = options.coarse ? spore_sharpness_begin(&picture->sharpness, now) : 1;
+  options.width = coarse_side(width, coarseness), options.height = coarse_side(height, coarseness);
   picture->stale = FALSE;
+  g_clear_handle_id(&picture->rest, g_source_remove);
   if (spore_renderer_begin(self->renderer, camera, &options, &error)) {
-    self->drawing = (SporeViewportDrawing){.of = picture, *camera, width, height, .since = now};
+    self->drawing = (SporeViewportDrawing){.of = picture, *camera, width, height, coarseness, .since = now};
   } else {
     g_warning("%s", error->message);
-    fit(picture, width, height); /* it is not tried again before something changes */
+    fit(picture, width, height, coarseness); /* it is not tried again before something changes */
     picture->camera = *camera;
+    picture->coarse = FALSE;
   }
 }
 
@@ -56,7 +98,7 @@ static void take(SporeViewport *self) {
   SporeViewportDrawing drawn = self->drawing;
   g_autoptr(GError) error = NULL;
   spore_viewport_drop_drawing(self);
-  fit(drawn.of, drawn.width, drawn.height);
+  fit(drawn.of, drawn.width, drawn.height, drawn.coarseness);
   cairo_surface_t *pixels = drawn.of->pixels;
   cairo_surface_flush(pixels);
   if (!spore_renderer_read(self->renderer, cairo_image_surface_get_data(pixels),
@@ -64,7 +106,10 @@ static void take(SporeViewport *self) {
     g_warning("%s", error->message);
   cairo_surface_mark_dirty(pixels);
   drawn.of->camera = drawn.camera;
-  if (drawn.of == &self->picture) self->draw_ms = (double)(g_get_monotonic_time() - drawn.since) / 1000;
+  gint64 now = g_get_monotonic_time();
+  spore_sharpness_drawn(&drawn.of->sharpness, now);
+  mind_sharpness(self, drawn.of, drawn.coarseness > 1);
+  if (drawn.of == &self->picture) self->draw_ms = (double)(now - drawn.since) / 1000;
 }
 
 /* Both views are shown anew: the other one may have waited for its turn. */
@@ -94,8 +139,11 @@ void spore_viewport_paint(SporeViewport *self, SporeViewportPicture *picture, co
   spore_viewport_tell_drawing(self);
   if (!picture->pixels) return;
   cairo_save(cr);
-  cairo_scale(cr, 1.0 / scale, 1.0 / scale);
+  cairo_scale(cr, (double)picture->width / scale / cairo_image_surface_get_width(picture->pixels),
+              (double)picture->height / scale / cairo_image_surface_get_height(picture->pixels));
   cairo_set_source_surface(cr, picture->pixels, 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(cr), picture->coarse ? CAIRO_FILTER_BILINEAR : CAIRO_FILTER_NEAREST);
+  cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); /* no dark edge around what is enlarged */
   cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
   cairo_paint(cr);
   cairo_restore(cr);

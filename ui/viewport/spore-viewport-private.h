@@ -5,6 +5,7 @@
 #include "core/author/instrument_edits.h"
 #include "core/author/placement.h"
 #include "ui/document/hand-edit.h"
+#include "ui/render/sharpness.h"
 #include "ui/viewport/spore-viewport.h"
 
 typedef struct SporeViewportMeasures SporeViewportMeasures;
@@ -28,13 +29,18 @@ typedef struct SporeViewportPicture {
   cairo_surface_t *pixels; /* the last that was drawn; NULL: none was */
   SporeCamera camera;      /* from which they were drawn */
   gboolean stale;          /* they are out of date */
+  int width, height;       /* of the area that they fill; coarse ones have fewer pixels */
+  gboolean coarse;         /* so that they are enlarged */
+  SporeSharpness sharpness;
+  guint rest; /* source that draws a sharp picture after a coarse one */
 } SporeViewportPicture;
 
 /* The picture that the renderer draws while the window goes on. */
 typedef struct SporeViewportDrawing {
   SporeViewportPicture *of; /* NULL: none is being drawn */
   SporeCamera camera;
-  int width, height; /* pixels */
+  int width, height; /* of the area, pixels */
+  int coarseness;    /* how many pixels each way are drawn as one */
   gint64 since;
   guint look; /* source that looks whether it is drawn */
 } SporeViewportDrawing;
@@ -111,6 +117,7 @@ struct _SporeViewport {
   SporeViewportPicture picture, second_picture;
   SporeViewportDrawing drawing;
   gboolean told_drawing; /* to who asks for the view's description */
+  gboolean told_coarse;  /* the corner says that the picture is coarse */
   gboolean second_on;
   guint rebuild, tick;
   gint64 hud_clock;
@@ -182,6 +189,7 @@ void spore_viewport_wait_for_graphics(SporeViewport *self);
 /* spore-viewport-picture.c: what is drawn of the stage. */
 /* Whether pictures of the view are fine, by the user's choice or the graphics device. There is one. */
 gboolean spore_viewport_is_fine(SporeViewport *self);
+void spore_viewport_clear_picture(SporeViewportPicture *picture);
 /* Draws the camera's picture where it is stale, and paints it over the area. There is a renderer. */
 void spore_viewport_paint(SporeViewport *self, SporeViewportPicture *picture, const SporeCamera *camera,
                           GtkWidget *area, cairo_t *cr);

@@ -33,8 +33,12 @@ static void name_views(SporeViewport *self) {
 }
 
 void spore_viewport_tell_drawing(SporeViewport *self) {
-  gboolean second = self->second_picture.stale && gtk_widget_get_mapped(self->second_area);
-  gboolean late = self->rebuild || self->picture.stale || second || self->drawing.of;
+  /* A run shows coarse pictures as long as it goes on. */
+  gboolean rests = !self->player || !spore_player_is_playing(self->player);
+  gboolean second = gtk_widget_get_mapped(self->second_area) &&
+                    (self->second_picture.stale || (rests && self->second_picture.coarse));
+  gboolean large = self->picture.stale || (rests && self->picture.coarse);
+  gboolean late = self->rebuild || large || second || self->drawing.of;
   gboolean drawing = self->graphics || (self->renderer && late);
   if (drawing == self->told_drawing) return;
   self->told_drawing = drawing;

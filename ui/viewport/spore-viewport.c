@@ -88,11 +88,25 @@ static void ensure_stage(SporeViewport *self) {
   rebuild(self);
 }
 
+static gboolean tell_sharpness(gpointer data) {
+  g_autoptr(SporeViewport) self = data;
+  if (self->document) spore_viewport_overlay_update(self);
+  return G_SOURCE_REMOVE;
+}
+
+/* The corner says of another picture how sharp it is, once it is shown. */
+static void mind_sharpness(SporeViewport *self) {
+  if (self->told_coarse == self->picture.coarse) return;
+  self->told_coarse = self->picture.coarse;
+  g_idle_add(tell_sharpness, g_object_ref(self));
+}
+
 static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   int width = gtk_widget_get_allocated_width(area), height = gtk_widget_get_allocated_height(area);
   ensure_stage(self);
   if (!self->renderer) return FALSE;
   spore_viewport_paint(self, &self->picture, &self->camera, area, cr);
+  mind_sharpness(self);
   SporeCamera now = self->camera;
   if (self->picture.pixels) self->camera = self->picture.camera; /* what lies over the picture fits to it */
   spore_viewport_overlay_draw(self, cr, width, height);
@@ -354,8 +368,8 @@ static void spore_viewport_dispose(GObject *object) {
   self->graphics = NULL;
   g_clear_pointer(&self->renderer, spore_renderer_free);
   g_clear_pointer(&self->offscreen, spore_offscreen_free);
-  g_clear_pointer(&self->picture.pixels, cairo_surface_destroy);
-  g_clear_pointer(&self->second_picture.pixels, cairo_surface_destroy);
+  spore_viewport_clear_picture(&self->picture);
+  spore_viewport_clear_picture(&self->second_picture);
   g_clear_pointer(&self->renderer_name, g_free);
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
