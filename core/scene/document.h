@@ -28,6 +28,8 @@ const SporeSchema *spore_document_schema(const SporeDocument *document);
 SporeObject *spore_document_root(const SporeDocument *document);
 SporeObject *spore_document_section(const SporeDocument *document, const char *element); /* always there */
 SporeObject *spore_document_by_id(const SporeDocument *document, guint32 id);
+/* Of an object that was removed and may come back by undo; NULL: there is none. */
+const SporeObject *spore_document_removed(const SporeDocument *document, guint32 id);
 /* Object of one of the kinds (element names joined by |) with that name; NULL: none. */
 SporeObject *spore_document_find(const SporeDocument *document, const char *elements, const char *name);
 /* By path: "bodies/liver", "bodies/liver/mechanical/corotational_tetrahedra", "solver". */

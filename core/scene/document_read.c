@@ -22,6 +22,11 @@ SporeObject *spore_document_by_id(const SporeDocument *document, guint32 id) {
   return object && is_attached(object) ? object : NULL;
 }
 
+const SporeObject *spore_document_removed(const SporeDocument *document, guint32 id) {
+  const SporeObject *object = g_hash_table_lookup(document->objects, GUINT_TO_POINTER(id));
+  return object && !is_attached(object) ? object : NULL;
+}
+
 gboolean spore_element_in_list(const char *elements, const char *element) {
   size_t length = strlen(element);
   for (const char *at = elements; at; at = strchr(at, '|'), at += at != NULL)

@@ -145,9 +145,14 @@ static gboolean apply(SporePlayer *self, SporeObject *object, guint property) {
   return FALSE;
 }
 
-/* Whether a new object says nothing that the scene did not say without it: what is set in it follows. */
+/* Whether the scene says the same with and without an object: a fidelity in which nothing is set. It comes so before
+ * its first choice, which follows, and goes so when that choice is undone. */
 static gboolean says_nothing(const SporeObject *object) {
-  return strcmp(spore_object_type(object)->element, "fidelity") == 0 && spore_object_child_count(object) == 0;
+  const SporeObjectType *type = spore_object_type(object);
+  if (strcmp(type->element, "fidelity") != 0 || spore_object_child_count(object) > 0) return FALSE;
+  for (guint p = 0; p < type->table->count; p++)
+    if (spore_object_is_set(object, p)) return FALSE;
+  return TRUE;
 }
 
 static void document_changed(SporePlayer *self, int kind, guint id, guint property) {
@@ -158,8 +163,10 @@ static void document_changed(SporePlayer *self, int kind, guint id, guint proper
   }
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *object = self->session && kind == SPORE_DOCUMENT_SET ? spore_document_by_id(document, id) : NULL;
-  const SporeObject *added = kind == SPORE_DOCUMENT_INSERTED ? spore_document_by_id(document, id) : NULL;
-  if (added && says_nothing(added)) return;
+  const SporeObject *other = kind == SPORE_DOCUMENT_INSERTED  ? spore_document_by_id(document, id)
+                             : kind == SPORE_DOCUMENT_REMOVED ? spore_document_removed(document, id)
+                                                              : NULL;
+  if (other && says_nothing(other)) return;
   if (object && apply(self, object, property)) return;
   if (!self->remake) self->remake = g_idle_add_full(G_PRIORITY_HIGH_IDLE, make, self, NULL);
 }
