@@ -132,11 +132,10 @@ static void fail_each(gconstpointer data) {
 }
 
 int main(int argc, char **argv) {
-  static const Part parts[] = {
-      {"/generate/memory/surface", surface},       {"/generate/memory/wall", wall},
-      {"/generate/memory/operations", operations}, {"/generate/memory/centreline", centreline},
-      {"/generate/memory/sheet", sheet},           {"/generate/memory/lattice", lattice},
-      {"/generate/memory/labels", label_cells},    {"/generate/memory/apart", apart}};
+  static const Part parts[] = {{"/generate/memory/surface", surface},       {"/generate/memory/wall", wall},
+                               {"/generate/memory/operations", operations}, {"/generate/memory/centreline", centreline},
+                               {"/generate/memory/sheet", sheet},           {"/generate/memory/lattice", lattice},
+                               {"/generate/memory/labels", label_cells},    {"/generate/memory/apart", apart}};
   g_test_init(&argc, &argv, NULL);
   shape_ball(&ball, 0.02, 6);
   shape_ball(&coarse, 0.02, 4);
