@@ -208,7 +208,8 @@ static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *
   g_autoptr(GPtrArray) parts = spore_mesh_decode_parts(file->file, bytes, size, beside, file->unit, file->frame, named,
                                                        &file->parts, &progress, error);
   if (!parts || intake->options->unit >= 0 || says_metres(file->file, bytes, size)) return g_steal_pointer(&parts);
-  file->unit = guess_unit(parts);
+  guint silent = intake->options->silent_unit;
+  file->unit = silent ? (int)silent - 1 : guess_unit(parts);
   if (file->unit == 0) return g_steal_pointer(&parts);
   return spore_mesh_decode_parts(file->file, bytes, size, beside, file->unit, file->frame, named, &file->parts,
                                  &progress, error);

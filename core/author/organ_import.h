@@ -16,7 +16,9 @@ typedef enum SporeImportDivision {
 } SporeImportDivision;
 
 typedef struct SporeImportOptions {
-  int unit;  /* index into spore_length_units; -1: guessed of each file, by its size; metres where glTF says so */
+  int unit; /* index into spore_length_units; -1: guessed of each file, by its size; metres where glTF says so */
+  /* Where unit is -1: 1 + index of the unit of files that do not say theirs; 0: it is guessed. */
+  guint silent_unit;
   int frame; /* into spore_mesh_frames; -1: what the file says, else Y_UP */
   SporeImportDivision division;
   gboolean lenient; /* a file that cannot be read is left out, and said; where none can, that is an error */

@@ -2369,9 +2369,15 @@ def preferences_are_kept_and_reset():
         editor.choose(box("Wheel in the view"), "Goes farther away")
         editor.choose(box("Keeping unsaved work"), "Every 5 minutes")
         editor.choose(box("Quality of pictures"), "Always plain")
+        editor.choose(box("Length unit of imports"), "cm")
         keep_picture(editor, "preferences")
         editor.keys("Escape")
         ui.wait(lambda: not editor.look("dialog", "^Preferences$"), "the window of preferences to close")
+        editor.act("import-dialog-with", "as", [str(ball())])
+        editor.find("label", "the unit, cm, is that of the preferences")
+        keep_picture(editor, "preferred-unit")
+        editor.press(editor.find("push button", "^Cancel$"))
+        ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
         editor.find("push button", "^Import$")  # in English still
     with start(XDG_CONFIG_HOME=choices) as editor:
         editor.find("push button", "^Importer$")

@@ -9,6 +9,7 @@
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/panels/report.h"
+#include "ui/spore-preferences.h"
 
 #define SETTLE_MS 250 /* delay after a choice, before the files are read again */
 #define CHOICE_LEAST_CHARS 12
@@ -28,6 +29,7 @@ enum {
 
 struct _SporeImportDialog {
   GtkDialog parent;
+  guint silent_unit; /* see SporeImportOptions */
   GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *lighten, *accept, *together;
   GtkWidget *wanted[SPORE_MESH_OPERATIONS], *argument[SPORE_MESH_OPERATIONS]; /* argument: NULL where it takes none */
   GtkListStore *rows;
@@ -135,6 +137,8 @@ static char *state_of(SporeImportDialog *self, const char *count) {
     g_string_append_printf(units, different++ ? ", %s" : "%s", spore_length_units[file->unit]);
   }
   if (gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit)) > 0) return g_strdup(count);
+  if (self->silent_unit)
+    return g_strdup_printf(_("%s; the unit, %s, is that of the preferences, or said by a file"), count, units->str);
   return g_strdup_printf(different > 1 ? _("%s; the units, %s, are guessed from the sizes")
                                        : _("%s; the unit, %s, is guessed from the size"),
                          count, units->str);
@@ -183,6 +187,7 @@ static void read_through(SporeJob *job, gpointer data, const GError *error, gpoi
 
 static void read_options(SporeImportDialog *self, SporeImportOptions *options) {
   options->unit = gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit)) - 1;
+  options->silent_unit = self->silent_unit;
   options->frame = gtk_combo_box_get_active(GTK_COMBO_BOX(self->frame)) - 1;
   options->division = (SporeImportDivision)gtk_combo_box_get_active(GTK_COMBO_BOX(self->division));
   for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) {
@@ -355,9 +360,22 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
   gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF, GLB or VTK; label maps: NIfTI, NRRD"));
 }
 
+/* The unit of files that do not say theirs, as the user prefers it. */
+static void follow_preference(SporeImportDialog *self, GtkApplication *application) {
+  g_autofree char *unit = spore_preferences_state(application, "unit");
+  for (guint i = 0; spore_length_units[i]; i++)
+    if (g_str_equal(unit, spore_length_units[i])) self->silent_unit = i + 1;
+  if (!self->silent_unit) return;
+  g_autofree char *text = g_strdup_printf(_("%s, but where a file says its own"), unit);
+  gtk_combo_box_text_remove(GTK_COMBO_BOX_TEXT(self->unit), 0);
+  gtk_combo_box_text_prepend_text(GTK_COMBO_BOX_TEXT(self->unit), text);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), 0);
+}
+
 GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files) {
   SporeImportDialog *self =
       g_object_new(SPORE_TYPE_IMPORT_DIALOG, "transient-for", parent, "use-header-bar", TRUE, NULL);
+  follow_preference(self, gtk_window_get_application(parent));
   for (; files && *files; files++) add_file(self, *files);
   read_soon(self);
   return GTK_WIDGET(self);

@@ -39,6 +39,11 @@ const SporePreference spore_preferences[] = {
      .doc = N_("How often it is kept aside, to be offered again after a crash"),
      .preset = 1,
      .choices = {{"15", N_("Every 15 seconds")}, {"60", N_("Every minute")}, {"300", N_("Every 5 minutes")}}},
+    {.name = "unit",
+     .label = N_("Length unit of imports"),
+     .doc = N_("Of meshes whose files do not say theirs"),
+     .choices =
+         {{"guess", N_("Guessed from the size")}, {"m", "m"}, {"cm", "cm"}, {"mm", "mm"}, {"um", "µm"}, {"in", "in"}}},
     {.name = NULL},
 };
 

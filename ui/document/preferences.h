@@ -4,7 +4,7 @@
 
 #include <glib.h>
 
-#define SPORE_PREFERENCE_CHOICES 5
+#define SPORE_PREFERENCE_CHOICES 6
 
 /* The table is the only place that knows them: the actions of the program, the window and the file follow it. */
 typedef struct SporePreference {
