@@ -366,6 +366,24 @@ static void test_tint(void) {
   bench_close(&bench);
 }
 
+/* The background is kept from picture to picture: not for another room, nor for another size. */
+static void test_background_kept(void) {
+  const SporeCamera camera = {.distance = 0.24, .field_of_view = 0.7};
+  SporeRenderOptions options = {.width = 64, .height = 48};
+  guint32 rooms[2][3][64 * 48] = {0};
+  Bench bench = bench_open();
+  for (int turn = 0; turn < 2; turn++)
+    for (int room = 0; room < 3; room++) {
+      GError *error = NULL;
+      options.light = room == 1, options.height = room == 2 ? 40 : 48;
+      spore_renderer_draw(bench.renderer, &camera, &options, (guint8 *)rooms[turn][room], 64 * 4, &error);
+      g_assert_no_error(error);
+    }
+  g_assert_cmpmem(rooms[0], sizeof rooms[0], rooms[1], sizeof rooms[1]);
+  for (int a = 0; a < 3; a++) g_assert_true(memcmp(rooms[0][a], rooms[0][(a + 1) % 3], 64 * 40 * 4) != 0);
+  bench_close(&bench);
+}
+
 /* A surface that has values, all of them "none", or stains of nothing, is drawn by the program that does everything;
  * else by one that does what its material needs. */
 static void check_own_program(SporeMaterial material, gboolean stains) {
@@ -631,6 +649,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/prepared-on-a-thread", test_prepared_on_a_thread);
   g_test_add_func("/render/renderer/own-programs", test_own_programs);
   g_test_add_func("/render/renderer/sharpness", test_sharpness);
+  g_test_add_func("/render/renderer/background-kept", test_background_kept);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
   g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/clear", test_clear);

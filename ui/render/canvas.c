@@ -41,7 +41,7 @@ gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVa
   return spore_surface_pass(drawables, frame, programs, variant, FALSE, error) &&
          spore_cap_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) &&
-         spore_background_pass(canvas, variant, error) &&
+         (frame->backed || spore_background_pass(canvas, variant, error)) &&
          (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
          spore_surface_pass(drawables, frame, programs, variant, TRUE, error) &&
          spore_puff_pass(drawables, frame, programs, variant, error) &&

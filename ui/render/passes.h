@@ -77,6 +77,7 @@ typedef struct SporeFrame {
   float line_scale; /* pixels in one of a line's width */
   SporeClip clip;   /* in the world */
   gboolean clips;   /* something may be hidden by the plane */
+  gboolean backed;  /* the background is there before anything is drawn */
 } SporeFrame;
 
 /* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the origin of
