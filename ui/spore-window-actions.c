@@ -241,6 +241,7 @@ static void show_overlays(SporeWindow *self) {
                                .spheres = is_on(self, "show-spheres"),
                                .tetrahedra = is_on(self, "show-tetrahedra"),
                                .contacts = is_on(self, "show-contacts"),
+                               .links = is_on(self, "show-links"),
                                .field = field_of(self)};
   spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options, is_on(self, "keep-scale"));
 }
@@ -453,6 +454,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"show-spheres", NULL, NULL, "false", change_overlay},
       {"show-tetrahedra", NULL, NULL, "false", change_overlay},
       {"show-contacts", NULL, NULL, "false", change_overlay},
+      {"show-links", NULL, NULL, "false", change_overlay},
       {"box-select", NULL, NULL, "false", change_boxing},
       {"colours", NULL, "s", "'none'", change_colours},
       {"keep-scale", NULL, NULL, "false", change_keep_scale},

@@ -38,6 +38,7 @@ static const struct {
     {"win.show-spheres", N_("Show or hide collision spheres")},
     {"win.show-tetrahedra", N_("Show or hide tetrahedra")},
     {"win.show-contacts", N_("Show or hide contact forces")},
+    {"win.show-links", N_("Show or hide links")},
     {"win.box-select", N_("Select with a box")},
     {"win.view::back", N_("From behind")},
     {"win.view::left", N_("From the left")},

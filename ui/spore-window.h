@@ -45,7 +45,7 @@
  *               speed [s factor, "0": as fast as it goes; state],
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
- *               show-contacts, show-reach, show-figures (state), box-select (state: of the next drag),
+ *               show-contacts, show-links, show-reach, show-figures (state), box-select (state: of the next drag),
  *               colours [s "none", "strain", "stress", "velocity" or "level"; state],
  *               keep-scale (state: of the colours), frame,
  *               view [s "camera", "front", "back", "right", "left", "top" or "bottom"],

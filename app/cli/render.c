@@ -18,7 +18,7 @@ typedef struct RenderOptions {
   char *size, *output, *camera, *time, *beside, *clip, *reach, *field, *field_end;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
-  gboolean spheres, tetrahedra, contacts, light;
+  gboolean spheres, tetrahedra, contacts, links, light;
   SporeSceneOptions scene;
 } RenderOptions;
 
@@ -121,7 +121,8 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                             .shown = {.surfaces = TRUE,
                                       .spheres = options->spheres,
                                       .tetrahedra = options->tetrahedra,
-                                      .contacts = options->contacts},
+                                      .contacts = options->contacts,
+                                      .links = options->links},
                             .light = options->light,
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
@@ -319,6 +320,8 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
        "N"},
       {"spheres", 0, 0, G_OPTION_ARG_NONE, &options.spheres, N_("Show collision spheres"), NULL},
       {"contacts", 0, 0, G_OPTION_ARG_NONE, &options.contacts, N_("Show contact forces"), NULL},
+      {"links", 0, 0, G_OPTION_ARG_NONE, &options.links,
+       N_("Show links, a colour for each kind; what bears most is named"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};

@@ -284,6 +284,8 @@ typedef struct SporeLinkState {
 } SporeLinkState;
 /* Number of links, pins not counted. */
 size_t spore_world_link_count(const SporeWorld *world);
+/* Name of a link; owned by the world. Any thread may ask. */
+const char *spore_world_link_name(const SporeWorld *world, size_t link);
 /* State of a link, in the order of the description without the pins. */
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 
@@ -539,6 +541,12 @@ typedef struct SporeSnapshotContact {
   SporeVec3 point, force;      /* world, m; force on sphere a, N */
   uint32_t sphere_a, sphere_b; /* indices in spore_world_spheres */
 } SporeSnapshotContact;
+/* A link in a snapshot. */
+typedef struct SporeSnapshotLink {
+  SporeVec3 a, b; /* world, m: the middles of the points at its ends, when the step began */
+  double load;    /* N, as in SporeLinkState */
+  bool broken;
+} SporeSnapshotLink;
 /* What all tools together have done so far; see SporeToolState. */
 typedef struct SporeToolCounts {
   size_t cut, pierced, stitches;
@@ -563,6 +571,8 @@ typedef struct SporeSnapshot {
   size_t contact_count; /* of bodies that are awake; at most contact_capacity of these contacts are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
+  size_t link_count; /* as spore_world_link_count */
+  SporeSnapshotLink *links;
   SporeCuts cuts;   /* since time 0 */
   uint64_t cut_run; /* changes whenever the list of cuts begins anew, by a reset */
   SporeLines lines;

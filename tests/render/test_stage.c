@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/author/generator.h"
+#include "core/author/link_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"
 #include "models/registry.h"
@@ -244,6 +245,66 @@ static void test_overlays(void) {
   spore_stage_set_options(setting.stage, &contacts);
   spore_stage_update(setting.stage, spore_world_snapshot_acquire(setting.simulation->world));
   g_assert_cmpint(changed_pixels(&setting, &contacts), >, 3);
+  setting_close(&setting);
+}
+
+static void add_link(Setting *setting, const char *element, SporeVec3 from, SporeVec3 to) {
+  GError *error = NULL;
+  SporeLinkEnd ends[] = {{spore_document_find(setting->document, "body", "ball"), from}, {NULL, to}};
+  g_assert_nonnull(spore_edit_add_link(setting->document, element, ends, 2, &error));
+  g_assert_no_error(error);
+  spore_stage_rebuild(setting->stage, NULL);
+}
+
+static void assert_link_legend(const Setting *setting, const char *pattern) {
+  SporeStageLegend legend;
+  g_assert_true(spore_stage_link_legend(setting->stage, &legend));
+  g_autofree char *text = spore_stage_legend_text(&legend);
+  spore_stage_legend_clear(&legend);
+  if (!g_pattern_match_simple(pattern, text)) g_error("\"%s\" is not like \"%s\"", text, pattern);
+}
+
+/* Pixels that links change, all of which must lie between two columns. */
+static int link_pixels(const Setting *setting, double from_x, double to_x) {
+  SporeCamera camera = straight_camera(0.4);
+  Picture pictures[2];
+  for (int i = 0; i < 2; i++) {
+    spore_stage_set_options(setting->stage, &(SporeStageOptions){.surfaces = TRUE, .links = i});
+    pictures[i] = draw_picture(setting->bench.renderer, &camera, 160, 120, FALSE, FALSE);
+  }
+  int changed = 0;
+  for (int i = 0; i < 160 * 120; i++) {
+    if (memcmp(pictures[0].pixels + 4 * i, pictures[1].pixels + 4 * i, 3) == 0) continue;
+    g_assert_true(i % 160 >= from_x && i % 160 <= to_x);
+    changed++;
+  }
+  picture_clear(&pictures[0]);
+  picture_clear(&pictures[1]);
+  return changed;
+}
+
+/* A picture differs where a link is, and there alone; the legend has the kinds of the scene, and what they bear. */
+static void test_links(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeCamera camera = straight_camera(0.4);
+  SporeVec3 ball = {0.0015, 0.06, 0.001}, beside = {0.06, 0.06, 0.001};
+  double from[2], to[2];
+  g_assert_cmpint(link_pixels(&setting, 0, 160), ==, 0);
+  assert_link_legend(&setting, "Links: the scene has none");
+  add_link(&setting, "spring", ball, beside);
+  g_assert_true(spore_camera_project(&camera, ball, 160, 120, &from[0], &from[1]) &&
+                spore_camera_project(&camera, beside, 160, 120, &to[0], &to[1]));
+  g_assert_cmpint(link_pixels(&setting, from[0] - 3, to[0] + 3), >, 20);
+  assert_link_legend(&setting, "Links: Spring (yellow): 1");
+  add_link(&setting, "weld", ball, beside);
+  add_link(&setting, "spring", ball, beside);
+  assert_link_legend(&setting, "Links: Spring (yellow): 2, Weld (red): 1");
+  spore_stage_set_options(setting.stage, &(SporeStageOptions){.surfaces = TRUE});
+  SporeStageLegend legend;
+  g_assert_false(spore_stage_link_legend(setting.stage, &legend));
+  spore_stage_set_options(setting.stage, &(SporeStageOptions){.surfaces = TRUE, .links = TRUE});
+  setting_run(&setting, 60);
+  assert_link_legend(&setting, "Links: Spring (yellow): 2, Weld (red): 1; most now: 0.3* N on \"ball_weld\""); /* m g */
   setting_close(&setting);
 }
 
@@ -754,6 +815,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/fit-aside", test_fit_aside);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);
+  g_test_add_func("/render/stage/links", test_links);
   g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/stains-are-seen", test_stains_are_seen);

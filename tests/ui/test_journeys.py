@@ -3379,8 +3379,16 @@ def links_are_tied_elsewhere():
         editor.mouse("mousemove", *left)
         editor.keys("Escape")
         ui.wait(lambda: not editor.look("label", ", click 1 of 2: "), "Escape to end the picking")
+        told = lambda: editor.find("toggle button", "^Links$").get_description() or ""
+        assert told() == "", told()
+        editor.act("show-links")
+        ui.wait(lambda: re.search(r"^Links: Spring \(yellow\): 1$", told()), "the legend of links")
+        keep_picture(editor, "links")
         editor.act("step")
         ui.wait(lambda: (editor.time_s() or 0) > 0, "a step")
+        ui.wait(lambda: re.search(r"^Links: Spring \(yellow\): 1(; most now: .* N on \"left_spring\")?$", told()), "what it bears")
+        editor.act("show-links")
+        ui.wait(lambda: told() == "", "the legend to go")
         editor.act("add-link", "s", "ball")
         ui.wait(lambda: "needs the scene at its start" in (editor.message() or ""), "the refusal of a scene that runs")
 

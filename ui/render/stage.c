@@ -14,6 +14,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->fits = spore_stage_fits_new();
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->lenses = g_array_new(FALSE, FALSE, sizeof(SporeLensState));
+  stage->links = spore_stage_links_new();
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
   stage->painted_values = g_array_new(FALSE, FALSE, sizeof(float));
   stage->selection = g_hash_table_new(NULL, NULL);
@@ -30,6 +31,7 @@ static void clear(SporeStage *stage) {
   g_ptr_array_set_size(stage->bodies, 0);
   if (stage->contact_handle) spore_renderer_remove(stage->renderer, stage->contact_handle);
   stage->contact_handle = 0;
+  spore_stage_links_clear(stage);
 }
 
 void spore_stage_free(SporeStage *stage) {
@@ -45,6 +47,7 @@ void spore_stage_free(SporeStage *stage) {
   spore_stage_fits_free(stage->fits);
   g_hash_table_destroy(stage->selection);
   g_array_free(stage->contacts, TRUE);
+  g_array_free(stage->links, TRUE);
   g_array_free(stage->painted_values, TRUE);
   g_array_free(stage->lenses, TRUE);
   g_array_free(stage->port_lines, TRUE);
@@ -65,6 +68,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   spore_stage_drop_textures(stage);
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
+  spore_stage_links_rebuild(stage);
   spore_stage_place_candidate(stage);
   spore_stage_place_marks(stage);
 }
@@ -134,6 +138,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   spore_stage_show_touch(stage, snapshot);
   if (stage->marks_handle) spore_renderer_set_visible(stage->renderer, stage->marks_handle, snapshot->step == 0);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
+  spore_stage_show_links(stage, snapshot);
 }
 
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options) {
@@ -146,6 +151,7 @@ void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options
   }
   spore_stage_mix_liquids(stage);
   if (stage->contact_handle) spore_renderer_set_visible(stage->renderer, stage->contact_handle, options->contacts);
+  spore_stage_mark_links(stage, stage->marks_links);
 }
 
 void spore_stage_set_hidden(SporeStage *stage, GHashTable *hidden) {

@@ -20,7 +20,7 @@ typedef enum SporeStageField {
 extern const char *const spore_stage_field_names[]; /* by field, then NULL; for options and actions */
 
 typedef struct SporeStageOptions {
-  gboolean surfaces, spheres, tetrahedra, contacts;
+  gboolean surfaces, spheres, tetrahedra, contacts, links;
   SporeStageField field;
   double field_end; /* at the end of the scale, which begins at 0; 0: the scale follows the state that is shown */
 } SporeStageOptions;
@@ -62,6 +62,8 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation);
 /* Moves the bodies to the state of the snapshot. */
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
+/* Whether links are drawn at time 0 whatever the options say, for whoever edits them. The next update shows it. */
+void spore_stage_mark_links(SporeStage *stage, gboolean marked);
 /* Borrowed until the next call; NULL: none. */
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate);
 /* Borrowed until the next call; NULL: none. Hidden once simulated time has passed. */
@@ -78,6 +80,12 @@ typedef struct SporeSphereScale {
   double share; /* the end as a share of each mesh's diagonal; 0: no such spheres are shown */
 } SporeSphereScale;
 SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
+/* What one colour means, of a screen, 0..1. */
+typedef struct SporeStageKey {
+  double colour[3];
+  char *text;
+} SporeStageKey;
+#define SPORE_STAGE_LINK_KINDS 8
 /* What the colours of surfaces say; translated texts. */
 typedef struct SporeStageLegend {
   char *label;   /* what is measured */
@@ -85,7 +93,9 @@ typedef struct SporeStageLegend {
   char *high;    /* at the end of the scale, with its unit. NULL: there is no scale, or no body has its colours */
   char *range;   /* what there is to say of the scale; NULL: nothing */
   char *without; /* the soft bodies of which it is not known, or another remark; NULL: none */
-  double end;    /* SI */
+  guint key_count;
+  SporeStageKey keys[SPORE_STAGE_LINK_KINDS];
+  double end; /* SI */
 } SporeStageLegend;
 /* FALSE: no field is shown. To be freed by spore_stage_legend_clear. */
 gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend);
@@ -93,9 +103,10 @@ gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend);
 char *spore_stage_legend_text(const SporeStageLegend *legend);
 /* The words of all legends of what is shown, a line each; g_free. */
 char *spore_stage_legends_text(const SporeStage *stage);
-/* The same of the spheres' errors (spore_stage_sphere_scale), and of the lines of contact forces. */
+/* The same of the spheres' errors (spore_stage_sphere_scale), of the lines of contact forces, and of links. */
 gboolean spore_stage_sphere_legend(const SporeStage *stage, SporeStageLegend *legend);
 gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *legend);
+gboolean spore_stage_link_legend(const SporeStage *stage, SporeStageLegend *legend);
 /* The end of the scale that is shown, SI; 0: none is. */
 double spore_stage_field_end(const SporeStage *stage);
 void spore_stage_legend_clear(SporeStageLegend *legend);

@@ -90,6 +90,9 @@ struct SporeStage {
   GHashTable *textures; /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
   GArray *lenses;       /* SporeLensState of the snapshot that is shown, one a camera of the scene */
   guint contact_handle;
+  GArray *links;                              /* see stage_links.c */
+  guint link_handles[SPORE_STAGE_LINK_KINDS]; /* 0: no link of that kind */
+  gboolean marks_links;
   gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
   GArray *contacts;                     /* double: segments of the contacts shown */
@@ -123,6 +126,12 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
 void spore_stage_mix_liquids(SporeStage *stage);
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body);
+
+/* Links of the document, and of the simulation that the stage is of. rebuild: after clear. snapshot NULL: of time 0. */
+GArray *spore_stage_links_new(void);
+void spore_stage_links_clear(SporeStage *stage);
+void spore_stage_links_rebuild(SporeStage *stage);
+void spore_stage_show_links(SporeStage *stage, const SporeSnapshot *snapshot);
 
 /* Draws the candidate or the marks again, where their body is at the start. */
 void spore_stage_place_candidate(SporeStage *stage);

@@ -353,7 +353,10 @@ gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend) {
 char *spore_stage_legend_text(const SporeStageLegend *legend) {
   g_autofree char *scale = legend->high ? g_strdup_printf(_("%s to %s"), legend->low, legend->high) : NULL;
   g_autofree char *range = scale && legend->range ? g_strdup_printf("%s (%s)", scale, legend->range) : NULL;
-  const char *first = range ? range : scale ? scale : legend->range;
+  g_autoptr(GString) keys = g_string_new(NULL);
+  for (guint i = 0; i < legend->key_count; i++)
+    g_string_append_printf(keys, "%s%s", i ? ", " : "", legend->keys[i].text);
+  const char *first = range ? range : scale ? scale : legend->key_count ? keys->str : legend->range;
   return g_strdup_printf("%s: %s%s%s", legend->label, first ? first : "", first && legend->without ? "; " : "",
                          legend->without ? legend->without : "");
 }
@@ -364,5 +367,6 @@ void spore_stage_legend_clear(SporeStageLegend *legend) {
   g_free(legend->high);
   g_free(legend->range);
   g_free(legend->without);
+  for (guint i = 0; i < legend->key_count; i++) g_free(legend->keys[i].text);
   *legend = (SporeStageLegend){0};
 }

@@ -1,4 +1,4 @@
-/* Legends of spheres and of contact forces, and the words of all legends. */
+/* Legends of spheres and of contact forces, and the words of all legends; those of links are in stage_links.c. */
 #include <glib/gi18n.h>
 
 #include "core/scene/length_unit.h"
@@ -45,8 +45,8 @@ gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *l
 }
 
 char *spore_stage_legends_text(const SporeStage *stage) {
-  gboolean (*const kinds[])(const SporeStage *, SporeStageLegend *) = {spore_stage_legend, spore_stage_sphere_legend,
-                                                                       spore_stage_contact_legend};
+  gboolean (*const kinds[])(const SporeStage *, SporeStageLegend *) = {
+      spore_stage_legend, spore_stage_sphere_legend, spore_stage_contact_legend, spore_stage_link_legend};
   GString *lines = g_string_new(NULL);
   for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) {
     SporeStageLegend legend;

@@ -1,8 +1,8 @@
-/* Links over the picture: where they hold, and the places that are picked for a new one. */
+/* Links over the picture: the chosen one, what a click meets, and the places that are picked for a new one. */
 #include "core/author/link_edits.h"
 #include "ui/viewport/spore-viewport-private.h"
 
-#define MARK_PIXELS 4.5   /* radius as drawn */
+#define MARK_PIXELS 6.5   /* radius as drawn */
 #define REACH_PIXELS 10.0 /* distance from a mark or line within which a click meets the link */
 #define OUTLINE_PIXELS 7.0
 
@@ -32,33 +32,31 @@ static gboolean shows_links(SporeViewport *self) {
   return self->document && !self->presented && (!session || spore_session_snapshot(session)->time_s == 0);
 }
 
-static void draw_dot(cairo_t *cr, double x, double y, gboolean chosen) {
+static void draw_dot(cairo_t *cr, double x, double y) {
   cairo_new_path(cr);
-  cairo_arc(cr, x, y, chosen ? 1.5 * MARK_PIXELS : MARK_PIXELS, 0, 2 * G_PI);
-  if (chosen) cairo_set_source_rgb(cr, 1, 1, 1);
-  else cairo_set_source_rgb(cr, 0.25, 0.75, 0.85);
+  cairo_arc(cr, x, y, MARK_PIXELS, 0, 2 * G_PI);
+  cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_fill_preserve(cr);
   cairo_set_source_rgb(cr, 0.05, 0.2, 0.25);
   cairo_set_line_width(cr, 1.5);
   cairo_stroke(cr);
 }
 
-static void draw_line(cairo_t *cr, const double from[2], const double to[2], gboolean chosen) {
+static void draw_line(cairo_t *cr, const double from[2], const double to[2]) {
   cairo_new_path(cr);
   cairo_move_to(cr, from[0], from[1]);
   cairo_line_to(cr, to[0], to[1]);
-  cairo_set_source_rgb(cr, chosen ? 1 : 0.25, chosen ? 1 : 0.75, chosen ? 1 : 0.85);
+  cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_set_line_width(cr, 2);
   cairo_stroke(cr);
 }
 
-static void draw_link(SporeViewport *self, cairo_t *cr, const Mark *mark) {
-  gboolean chosen = spore_editor_document_get_selection(self->document) == mark->link;
+static void draw_chosen(SporeViewport *self, cairo_t *cr, const Mark *mark) {
   double at[SPORE_LINK_MOST_ENDS][2];
   for (guint end = 0; end < mark->count; end++)
     if (!spore_viewport_project(self, mark->places[end], &at[end][0], &at[end][1])) return;
-  if (mark->count > 1) draw_line(cr, at[0], at[1], chosen);
-  for (guint end = 0; end < mark->count; end++) draw_dot(cr, at[end][0], at[end][1], chosen);
+  if (mark->count > 1) draw_line(cr, at[0], at[1]);
+  for (guint end = 0; end < mark->count; end++) draw_dot(cr, at[end][0], at[end][1]);
 }
 
 /* An instrument as a shaft of light: it stands when it is placed. */
@@ -82,14 +80,18 @@ static void draw_picking(SporeViewport *self, cairo_t *cr) {
   draw_outline(self, cr);
   for (guint i = 0; i < self->anchor_count; i++) {
     if (!spore_viewport_project(self, self->anchors[i], &at[0], &at[1])) continue;
-    draw_line(cr, at, cursor, TRUE);
-    draw_dot(cr, at[0], at[1], TRUE);
+    draw_line(cr, at, cursor);
+    draw_dot(cr, at[0], at[1]);
   }
 }
 
+/* The stage draws the links; the chosen one stands out. */
 void spore_viewport_links_draw(SporeViewport *self, cairo_t *cr) {
-  if (shows_links(self))
-    for (guint i = 0; i < self->link_marks->len; i++) draw_link(self, cr, &g_array_index(self->link_marks, Mark, i));
+  guint32 chosen = shows_links(self) ? spore_editor_document_get_selection(self->document) : 0;
+  for (guint i = 0; chosen && i < self->link_marks->len; i++) {
+    const Mark *mark = &g_array_index(self->link_marks, Mark, i);
+    if (mark->link == chosen) draw_chosen(self, cr, mark);
+  }
   if (self->picking) draw_picking(self, cr);
 }
 

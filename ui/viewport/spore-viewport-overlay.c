@@ -14,7 +14,8 @@
 #define LEGEND_HEIGHT 48
 #define LEGEND_LINE 18
 #define LEGEND_SCALE 31 /* the bar, and what stands at its ends */
-#define LEGEND_GAP 28   /* between two */
+#define KEY_PIXELS 9
+#define LEGEND_GAP 28 /* between two */
 #define ARROW_PIXELS_A_NEWTON 40.0
 #define ARROW_LONGEST_PIXELS 160.0
 
@@ -67,7 +68,14 @@ typedef struct Legend {
   const char *notes[2];           /* NULL: none */
   gboolean scale;                 /* a bar of the scale's colours, or of the tint where `tint` */
   gboolean tint;
+  guint key_count;
+  const SporeStageKey *keys; /* what a colour each means, above the notes */
 } Legend;
+
+/* Lines of text below the label or the bar. */
+static int count_lines(const Legend *legend) {
+  return (int)legend->key_count + (legend->notes[0] != NULL) + (legend->notes[1] != NULL);
+}
 
 static int count_notes(const Legend *legend) { return (legend->notes[0] != NULL) + (legend->notes[1] != NULL); }
 
@@ -75,7 +83,7 @@ static gboolean has_bar(const Legend *legend) { return legend->scale || legend->
 
 /* Of the notes, and of what is missing above them. */
 static int height_below(const Legend *legend) {
-  return count_notes(legend) * LEGEND_LINE - (has_bar(legend) ? 0 : LEGEND_SCALE);
+  return count_lines(legend) * LEGEND_LINE - (has_bar(legend) ? 0 : LEGEND_SCALE);
 }
 
 /* A dark box for a legend, at the lower right, above messages and beside the second view. FALSE: there is no room. */
@@ -118,6 +126,14 @@ static void draw_bar(cairo_t *cr, const Legend *legend, double left, double top)
   }
 }
 
+/* A patch of the colour, and what the colour means. */
+static void draw_key(SporeViewport *self, cairo_t *cr, const SporeStageKey *key, double left, double top) {
+  cairo_set_source_rgb(cr, key->colour[0], key->colour[1], key->colour[2]);
+  cairo_rectangle(cr, left, top + 5, KEY_PIXELS, KEY_PIXELS);
+  cairo_fill(cr);
+  write_legend(self, cr, key->text, left + 2 * KEY_PIXELS, top, 0);
+}
+
 /* Returns the height that the legend takes. */
 static int draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend) {
   double left, top;
@@ -128,6 +144,7 @@ static int draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, 
   write_legend(self, cr, legend->label, left, top - 21, 0);
   if (legend->low) write_legend(self, cr, legend->low, left, below, 0);
   if (legend->high) write_legend(self, cr, legend->high, left, below, 1);
+  for (guint i = 0; i < legend->key_count; i++, below += LEGEND_LINE) draw_key(self, cr, &legend->keys[i], left, below);
   for (int i = 0; i < count_notes(legend); i++)
     write_legend(self, cr, legend->notes[i], left, below + (i + (legend->low || legend->high ? 1 : 0)) * LEGEND_LINE,
                  0);
@@ -135,8 +152,8 @@ static int draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, 
 }
 
 /* Whoever does not see the colours reads what they say at the button that shows them. */
-static void tell_field(SporeViewport *self, const SporeStageLegend *legend) {
-  AtkObject *button = gtk_widget_get_accessible(self->colours_button);
+static void tell_at(GtkWidget *shower, const SporeStageLegend *legend) {
+  AtkObject *button = gtk_widget_get_accessible(shower);
   g_autofree char *text = legend ? spore_stage_legend_text(legend) : g_strdup("");
   if (g_strcmp0(atk_object_get_description(button), text) != 0) atk_object_set_description(button, text);
 }
@@ -145,6 +162,7 @@ static void tell_field(SporeViewport *self, const SporeStageLegend *legend) {
 
 static int draw_stage_legend(SporeViewport *self, cairo_t *cr, int width, int height, const SporeStageLegend *of) {
   Legend legend = {.label = of->label, .low = of->high ? of->low : NULL, .high = of->high, .scale = of->high != NULL};
+  legend.key_count = of->key_count, legend.keys = of->keys;
   guint notes = 0;
   if (of->range) legend.notes[notes++] = of->range;
   if (of->without) legend.notes[notes++] = of->without;
@@ -154,7 +172,7 @@ static int draw_stage_legend(SporeViewport *self, cairo_t *cr, int width, int he
 static int draw_field_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
   SporeStageLegend field;
   gboolean shown = self->stage && spore_stage_legend(self->stage, &field);
-  tell_field(self, shown ? &field : NULL);
+  tell_at(self->colours_button, shown ? &field : NULL);
   if (!shown) return 0;
   int taken = draw_stage_legend(self, cr, width, height, &field);
   spore_stage_legend_clear(&field);
@@ -177,6 +195,16 @@ static int draw_contact_legend(SporeViewport *self, cairo_t *cr, int width, int 
   return taken;
 }
 
+static int draw_link_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeStageLegend links;
+  gboolean shown = self->stage && spore_stage_link_legend(self->stage, &links);
+  tell_at(self->links_button, shown ? &links : NULL);
+  if (!shown) return 0;
+  int taken = draw_stage_legend(self, cr, width, height, &links);
+  spore_stage_legend_clear(&links);
+  return taken;
+}
+
 static int draw_reach_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
   g_autofree char *tint = spore_viewport_reach_legend(self);
   if (!tint) return 0;
@@ -187,7 +215,7 @@ static int draw_reach_legend(SporeViewport *self, cairo_t *cr, int width, int he
 /* Draws the legends of all that is shown, one above the other; those of what a candidate hides are left out. */
 static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
   static int (*const kinds[])(SporeViewport * self, cairo_t * cr, int width, int height) = {
-      draw_field_legend, draw_sphere_legend, draw_reach_legend, draw_contact_legend};
+      draw_field_legend, draw_sphere_legend, draw_reach_legend, draw_contact_legend, draw_link_legend};
   Legend legend = {.label = self->legend, .low = "0", .high = self->legend_high, .scale = TRUE};
   if (self->legend) {
     draw_legend(self, cr, width, height, &legend);

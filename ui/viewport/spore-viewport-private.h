@@ -60,8 +60,8 @@ struct _SporeViewport {
   GtkWidget *pictures;          /* of templates; NULL: none are set */
   GtkWidget *area, *foot, *template_button, *recent_button, *messages, *hud, *tools, *tool_row, *select_tool,
       *lead_tool, *edit_tool, *look_row, *overlays, *axes, *colours_button, *measure_list, *welcome, *beginnings,
-      *failure, *link_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice, *foot_row,
-      *second, *second_area, *second_name, *large_name;
+      *failure, *link_button, *links_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice,
+      *foot_row, *second, *second_area, *second_name, *large_name;
 
   SporeEditorDocument *document;
   SporePlayer *player;

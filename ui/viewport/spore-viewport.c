@@ -25,6 +25,7 @@ static const SporeSimulation *simulation_of(SporeViewport *self) {
 
 static void update_stage(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
+  if (self->stage) spore_stage_mark_links(self->stage, !self->presented);
   if (self->stage && session && !self->rebuild) { /* a stage that is to be built anew is of another world */
     const SporeSnapshot *snapshot = spore_session_snapshot(session);
     spore_stage_update(self->stage, snapshot);
@@ -290,7 +291,7 @@ void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
   gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
   gtk_widget_set_visible(self->axes, !presented);
   spore_viewport_ports_refresh(self);
-  spore_viewport_redraw(self);
+  update_stage(self);
 }
 
 void spore_viewport_set_boxing(SporeViewport *self, gboolean boxing) {
@@ -416,6 +417,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
   gtk_widget_class_bind_template_child(widget, SporeViewport, link_button);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, links_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, instrument_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, led_button);
   gtk_widget_class_bind_template_child(widget, SporeViewport, measure_button);

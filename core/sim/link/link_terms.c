@@ -39,6 +39,8 @@ void spore_link_release(SporeWorld *world, SporeLink *link) {
 
 size_t spore_world_link_count(const SporeWorld *world) { return world->links.count; }
 
+const char *spore_world_link_name(const SporeWorld *world, size_t link) { return world->links.all[link].name; }
+
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t index) {
   const SporeLink *link = &world->links.all[index];
   SporeLinkState state = {.name = link->name, .broken = link->broken};

@@ -40,6 +40,9 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->lens_count = world->lenses.count;
   if (world->lenses.count > 0) snapshot->lenses = SPORE_NEW_ARRAY(SporeLensState, world->lenses.count);
   if (world->lenses.count > 0 && !snapshot->lenses) return false;
+  snapshot->link_count = world->links.count;
+  snapshot->links = SPORE_NEW_ARRAY(SporeSnapshotLink, world->links.count);
+  if (!snapshot->links) return false;
   snapshot->cuts.capacity = world->topology.cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->topology.cuts.capacity);
   snapshot->cuts.corner_count = world->topology.cuts.corner_count;
@@ -75,10 +78,26 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].stain);
     spore_free(snapshots->buffers[i].lenses);
+    spore_free(snapshots->buffers[i].links);
     spore_free(snapshots->buffers[i].cuts.edges);
     spore_free(snapshots->buffers[i].cuts.corners);
     spore_free(snapshots->buffers[i].lines.breaks);
     spore_free(snapshots->buffers[i].lines.span_count);
+  }
+}
+
+static void copy_links(const SporeWorld *world, SporeSnapshot *snapshot) {
+  for (size_t i = 0; i < world->links.count; i++) {
+    const SporeLink *link = &world->links.all[i];
+    SporeSnapshotLink *shown = &snapshot->links[i];
+    double share = 1 / (double)link->term_count;
+    *shown = (SporeSnapshotLink){.broken = link->broken};
+    for (size_t t = 0; t < link->term_count; t++) {
+      const SporeSpringTerm *term = &world->links.springs[link->term_start + t];
+      shown->a = spore_vec3_add_scaled(shown->a, share, term->a.position);
+      shown->b = spore_vec3_add_scaled(shown->b, share, term->b.position);
+      if (!link->broken) shown->load += spore_vec3_length(term->force);
+    }
   }
 }
 
@@ -218,6 +237,7 @@ void spore_world_publish(SporeWorld *world) {
   copy_lines(world, snapshot);
   copy_stains(world, snapshot);
   for (size_t i = 0; i < world->lenses.count; i++) snapshot->lenses[i] = world->lenses.state[i];
+  copy_links(world, snapshot);
   snapshot->step_us = world->schedule.step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);
