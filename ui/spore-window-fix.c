@@ -25,15 +25,31 @@ static void fix(SporeWindow *self, const SporeDiagnostic *problem) {
   g_clear_pointer(&work, spore_fix_work_free);
 }
 
+const SporeDiagnostic *spore_window_said_problem(SporeWindow *self) {
+  return spore_problems_fixable(SPORE_PROBLEMS(self->problems), gtk_label_get_text(GTK_LABEL(self->message)));
+}
+
+static void fix_or_locate(SporeWindow *self, const SporeDiagnostic *problem) {
+  if (problem->fix == SPORE_FIX_LOCATE) spore_window_ask_to_locate(self);
+  else fix(self, problem);
+}
+
+/* What the message tells of. */
+static void act_fix_said(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const SporeDiagnostic *problem = spore_window_said_problem(self);
+  gtk_widget_hide(self->message_bar);
+  if (problem) fix_or_locate(self, problem);
+}
+
 static void act_fix(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   const SporeDiagnostic *problem = spore_problems_selected(SPORE_PROBLEMS(self->problems));
   if (!problem) spore_window_complain(self, _("select a problem first, in the Problems tab"));
-  else if (problem->fix == SPORE_FIX_LOCATE) spore_window_ask_to_locate(self);
-  else fix(self, problem);
+  else fix_or_locate(self, problem);
 }
 
 void spore_window_add_fix_actions(SporeWindow *self) {
-  static const GActionEntry actions[] = {{"fix", act_fix}};
+  static const GActionEntry actions[] = {{"fix", act_fix}, {"fix-said", act_fix_said}};
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
 }

@@ -92,6 +92,7 @@ static const struct {
   Need needs;
 } needs[] = {
     {"fix", IDLE},
+    {"fix-said", IDLE},
     {"undo", UNDO},
     {"redo", REDO},
     {"save", UNSAVED},

@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/fix.h"
 #include "core/scene/generated.h"
 #include "ui/document/hands.h"
 #include "ui/spore-window-private.h"
@@ -41,14 +42,26 @@ static void set_remedy(GtkActionable *button, const char *action) {
   gtk_actionable_set_action_name(button, name);
 }
 
+static void offer_remedy(SporeWindow *self, const char *remedy, const char *action) {
+  gtk_widget_set_visible(self->message_remedy, remedy != NULL);
+  if (remedy) gtk_button_set_label(GTK_BUTTON(self->message_remedy), remedy);
+  set_remedy(GTK_ACTIONABLE(self->message_remedy), action);
+}
+
+void spore_window_offer_fix(SporeWindow *self) {
+  if (!gtk_widget_get_visible(self->message_bar) || gtk_widget_get_visible(self->message_remedy)) return;
+  const SporeDiagnostic *problem = spore_window_said_problem(self);
+  g_autofree char *label = problem ? spore_fix_label(problem) : NULL;
+  if (label) offer_remedy(self, label, "win.fix-said");
+}
+
 void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
                                  const char *action) {
   self->cause = cause;
   gtk_label_set_text(GTK_LABEL(self->message), message);
-  gtk_widget_set_visible(self->message_remedy, remedy != NULL);
-  if (remedy) gtk_button_set_label(GTK_BUTTON(self->message_remedy), remedy);
-  set_remedy(GTK_ACTIONABLE(self->message_remedy), action);
+  offer_remedy(self, remedy, action);
   gtk_widget_show(self->message_bar);
+  spore_window_offer_fix(self);
   spore_window_log(self, "%s", message);
 }
 

@@ -83,6 +83,7 @@ static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, Sp
   spore_outliner_set_problems(SPORE_OUTLINER(self->outliner), diagnostics);
   offer_to_hold(self, diagnostics);
   spore_window_offer_to_locate(self, diagnostics);
+  spore_window_offer_fix(self);
 }
 
 /* What held the window for long, once for each thing that was going on, and again when that got much longer. */

@@ -12,6 +12,7 @@
  *               save-plot-dialog, export [s format, s path, d time, s, d time between moments, s], export-dialog,
  *               close, locate [s missing file, as the scene names it, s path], locate-dialog
  *   edit        fix (the selected problem), undo, redo, select [s path], rename [s name], rename-dialog, delete,
+ *               fix-said (the problem that the message tells of),
  *               delete-alone (assets and steps of the exercise stay), keep-along (what the last delete took besides),
  *               rename-row (of the outliner, folders too), new-folder (of the selected bodies),
  *               put-in-folder [s folder, "": none], move-row [i -1 or 1] (of what is selected, in its list),

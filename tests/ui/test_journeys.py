@@ -2243,6 +2243,22 @@ def rows_of_the_outliner_are_ordered():
 
 
 @check
+def a_message_offers_the_fix_of_its_cause():
+    """a step that is too large for a body keeps the scene from playing: the message has a button that takes enough substeps, and goes with it; a message without such a cause has none."""
+    with start(write_scene("coarse", "<corotational_tetrahedra/>", geometry="cells", solver='integrator="symplectic_euler"')) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("fix")
+        editor.find("label", "^select a problem first")
+        assert not editor.look("push button", "^Set substeps to")
+        editor.act("play")
+        editor.find("label", "is too large for symplectic_euler")
+        keep_picture(editor, "said-fix")
+        editor.press(editor.find("push button", "^Set substeps to"))
+        ui.wait(lambda: "substeps=" in saved(editor, "finer"), "the substeps")
+        ui.wait(lambda: not editor.look("label", "is too large for symplectic_euler"), "the message to go")
+
+
+@check
 def what_nothing_holds_is_offered_to_be_held():
     """a body that would fall out of sight is named, with a button that pins it; what stands on a floor is not; what goes along with a body that is deleted is told, and kept if that is wanted."""
     path = write_scene("loose", "<rigid_body/>")

@@ -45,6 +45,14 @@ const SporeDiagnostic *spore_problems_selected(SporeProblems *self) {
   return row < self->found->len ? self->found->pdata[row] : NULL;
 }
 
+const SporeDiagnostic *spore_problems_fixable(SporeProblems *self, const char *text) {
+  for (guint i = 0; i < self->found->len; i++) {
+    const SporeDiagnostic *diagnostic = self->found->pdata[i];
+    if (diagnostic->fix != SPORE_FIX_NONE && strstr(text, diagnostic->message)) return diagnostic;
+  }
+  return NULL;
+}
+
 /* The button does what the selected problem offers. */
 static void cursor_changed(SporeProblems *self) {
   const SporeDiagnostic *selected = spore_problems_selected(self);

@@ -19,6 +19,8 @@ void spore_problems_add_run(SporeProblems *self, guint64 step, const char *text)
 void spore_problems_clear_run(SporeProblems *self);
 /* The selected problem; NULL: none is. Borrowed until the next check. */
 const SporeDiagnostic *spore_problems_selected(SporeProblems *self);
+/* A problem with a fix that the text tells of; NULL: none is. Borrowed likewise. */
+const SporeDiagnostic *spore_problems_fixable(SporeProblems *self, const char *text);
 
 G_END_DECLS
 #endif
