@@ -1639,8 +1639,8 @@ def panels_fit_a_small_window():
                                                  capture_output=True, text=True).stdout.split(), "the window to be shown")
             editor.mouse("windowsize", ids[-1], 900, 600)
             ui.wait(lambda: editor.place(editor.find(".*", "^(Viewport|Vue)$"))[2] < 400, "the window to be small")
-            for name in ("^(Import mesh|Importer un maillage)…$", "^(Open demo|Ouvrir la démo)$"):
-                ui.wait(lambda: within(editor.place(editor.find("push button", name)),
+            for name in ("^(Import mesh|Importer un maillage)…$", "^(Open demo|Ouvrir la démo)$", "^Surfaces$", "^Instrument$"):
+                ui.wait(lambda: within(editor.place(editor.find("(push|toggle) button", name)),
                                        editor.place(editor.find(".*", "^(Viewport|Vue)$"))), f"{name} to fit")
             import_ball(editor)
             for kind, count in (("spheres", 20), ("surface", 60)):

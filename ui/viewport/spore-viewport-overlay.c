@@ -86,11 +86,13 @@ static int height_below(const Legend *legend) {
   return count_lines(legend) * LEGEND_LINE - (has_bar(legend) ? 0 : LEGEND_SCALE);
 }
 
-/* A dark box for a legend, at the lower right, above messages and beside the second view. FALSE: there is no room. */
+/* A dark box for a legend, at the lower right, above messages and notice, and beside the second view. FALSE: there is
+ * no room. */
 static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend,
                              double *left, double *top) {
   int notes = height_below(legend);
   if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
+  else if (gtk_widget_get_visible(self->notice)) height -= gtk_widget_get_allocated_height(self->notice);
   height -= gtk_widget_get_allocated_height(self->messages);
   *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT - notes;
   if (width < LEGEND_WIDTH + 2 * LEGEND_MARGIN) return FALSE;

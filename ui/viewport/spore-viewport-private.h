@@ -62,6 +62,7 @@ struct _SporeViewport {
       *lead_tool, *edit_tool, *look_row, *overlays, *axes, *colours_button, *measure_list, *welcome, *beginnings,
       *failure, *link_button, *links_button, *instrument_button, *led_button, *measure_button, *cut_slider, *notice,
       *foot_row, *second, *second_area, *second_name, *large_name;
+  int buttons_width; /* that the widest row of buttons takes in letters of the normal size */
 
   SporeEditorDocument *document;
   SporePlayer *player;

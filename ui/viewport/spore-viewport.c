@@ -146,11 +146,30 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
          spore_png_write(file, pixels, options.width, options.height, stride, error);
 }
 
+static gboolean place_overlays(gpointer data);
+
+/* Where the view is narrower than a row of buttons, these are set in smaller letters: none is cut off. */
+static void fit_buttons(SporeViewport *self) {
+  GtkStyleContext *style = gtk_widget_get_style_context(GTK_WIDGET(self));
+  gboolean narrow = gtk_style_context_has_class(style, "narrow");
+  if (!narrow) {
+    int row, overlays;
+    gtk_widget_get_preferred_width(self->tool_row, NULL, &row);
+    gtk_widget_get_preferred_width(self->overlays, NULL, &overlays); /* with its margins */
+    self->buttons_width = MAX(row + 2 * gtk_widget_get_margin_start(self->tools), overlays);
+  }
+  if (narrow == (self->buttons_width > gtk_widget_get_allocated_width(self->area))) return;
+  if (narrow) gtk_style_context_remove_class(style, "narrow");
+  else gtk_style_context_add_class(style, "narrow");
+  g_idle_add(place_overlays, g_object_ref(self)); /* once the letters have their size */
+}
+
 /* The choice of what is shown stands beside the first row of tools that leaves room for it, or below both. */
 static gboolean place_overlays(gpointer data) {
   g_autoptr(SporeViewport) self = data;
   GtkWidget *const rows[] = {self->tool_row, self->look_row};
   int overlays, width, height, margin = gtk_widget_get_margin_start(self->tools), top = margin;
+  fit_buttons(self);
   gtk_widget_get_preferred_width(self->overlays, NULL, &overlays); /* with its margins */
   for (guint i = 0; i < G_N_ELEMENTS(rows); i++) {
     gtk_widget_get_preferred_width(rows[i], NULL, &width);
