@@ -37,7 +37,13 @@ static void run(SporeWorld *world) {
 /* Fewer particles and cells: to look for what lies inside a surface takes most of the time, and all go the same way. */
 static void coarsen(SporeDocument *document) {
   static const struct { const char *name, *value; } settings[] = {{"particles", "120"}, {"cells", "5"}};
-  SporeObject *bodies = spore_document_section(document, "bodies");
+  SporeObject *bodies = spore_document_section(document, "bodies"),
+              *effects = spore_document_section(document, "effects");
+  for (guint e = 0; e < spore_object_child_count(effects); e++) { /* no more can be kept back than there are */
+    SporeObject *effect = spore_object_child(effects, e);
+    if (spore_parameter_find(spore_object_type(effect)->table, "reserve") < 0) continue;
+    if (spore_object_number(effect, "reserve") > 20) spore_document_set_text(document, effect, "reserve", "20", NULL);
+  }
   for (guint b = 0; b < spore_object_child_count(bodies); b++) {
     SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, b), "mechanical");
     if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
