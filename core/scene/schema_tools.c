@@ -83,8 +83,8 @@ static const SporeParameter camera_parameters[] = {
      .maximum = 1000,
      FIELD(SporeCameraFields, haze),
      .change = SPORE_CHANGE_REBUILD,
-     .doc =
-         N_("How long smoke hazes the view after it was made, until a third of the haze is left. 0: there is none.")},
+     .doc = N_("How long smoke hazes the view after it was made, until a third of the haze is left. Smoke "
+               "counts that is nearer than 10 cm, or within 45 degrees of where the camera looks. 0: there is none.")},
 };
 
 static const SporeParameter probe_parameters[] = {

@@ -694,16 +694,25 @@ static void test_lens_is_wetted(void) {
   g_assert_cmphex(hash[0], ==, hash[1]);
 }
 
-/* Smoke hazes the view, and the haze fades once the smoke is gone; an eye without haze sees none. */
+/* Smoke hazes the view, and the haze fades once the smoke is gone; an eye without haze sees none, nor one that is far
+ * and looks away. */
 static void test_smoke_hazes(void) {
-  SporeEyeDescription eyes[2] = {{.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .haze_s = 0.5},
-                                 {.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .lens = 0.004}};
+  SporeEyeDescription eyes[] = {
+      {.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .haze_s = 0.5},
+      {.body = SPORE_NO_BODY, .sight = {0, 0, -1}, .lens = 0.004},
+      {.body = SPORE_NO_BODY, .point = {0.5, 0, 0}, .sight = {-1, 0, 0}, .haze_s = 0.5},
+      {.body = SPORE_NO_BODY, .point = {0.5, 0, 0}, .sight = {0, 0, -1}, .haze_s = 0.5},
+      {.body = SPORE_NO_BODY, .point = {0.05, 0, 0}, .sight = {0, 0, -1}, .haze_s = 0.5},
+  };
   Rig *rig = sky(0, 250, 4e-3, true);
   rig->description.eyes = eyes;
-  rig->description.eye_count = 2;
+  rig->description.eye_count = G_N_ELEMENTS(eyes);
   SporeWorld *world = rig_build(rig);
   rig_run(world, 250);
   double thick = (double)spore_world_lens(world, 0).haze;
+  g_assert_cmpfloat((double)spore_world_lens(world, 2).haze, ==, thick); /* far, before it */
+  g_assert_cmpfloat((double)spore_world_lens(world, 3).haze, ==, 0);     /* far, beside it */
+  g_assert_cmpfloat((double)spore_world_lens(world, 4).haze, ==, thick); /* near, beside it */
   size_t count = spore_world_body_model(world, 0)->node_count;
   g_autofree double *q = g_memdup2(spore_world_q(world, 0), 4 * count * sizeof *q), *v = g_new0(double, 3 * count);
   for (size_t i = 0; i < count; i++) q[3 * i] = 2 * SPORE_PARTICLES_OUT_M;

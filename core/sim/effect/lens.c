@@ -22,6 +22,8 @@
 /* Area of smoke, weighted by how much of what is behind it each puff covers, that dims the view by a third in a second:
  * that of a field of view as wide as a hand. */
 #define HAZE_M2 8e-3
+#define NEAR_M 0.1           /* smoke that is nearer counts wherever it is */
+#define COS_BEFORE M_SQRT1_2 /* of the angle to the sight within which smoke that is farther counts */
 
 static SporePose frame_of(const SporeWorld *world, uint32_t index) {
   if (index == SPORE_NO_BODY) return spore_pose_identity();
@@ -118,12 +120,22 @@ static void meet_drops(const SporeWorld *world, const SporeLens *lens, const Spo
   else met->water += -rate * fmin(covered, 1);
 }
 
-static void meet_smoke(const SporeWorld *world, const SporeBody *body, Met *met) {
+/* Whether a puff there takes light away: near smoke drifts before the lens wherever it is. */
+static bool dims(SporeVec3 glass, SporeVec3 sight, SporeVec3 puff, double radius) {
+  SporeVec3 to = spore_vec3_sub(puff, glass);
+  double far = fmax(spore_vec3_length(to) - radius, 0);
+  return far < NEAR_M || spore_vec3_dot(to, sight) + radius > COS_BEFORE * far;
+}
+
+static void meet_smoke(const SporeWorld *world, const SporeLens *lens, const SporeBody *body, Met *met) {
+  SporePose frame = frame_of(world, lens->body);
+  SporeVec3 glass = spore_pose_apply(frame, lens->point), sight = spore_quat_rotate(frame.orientation, lens->sight);
   const double *q = world->state.q + body->q_offset;
   for (size_t i = 0; i < body->model->node_count; i++) {
     double radius, opacity;
     if (spore_particle_is_out(q + 3 * i)) continue;
     body->model->type->particles->puff(body->model, q, i, &radius, &opacity);
+    if (!dims(glass, sight, spore_vec3_load(q + 3 * i), radius)) continue;
     met->smoke += 3.141592653589793 * radius * radius * opacity;
   }
 }
@@ -160,7 +172,7 @@ void spore_world_wet_lenses(SporeWorld *world) {
     for (size_t b = 0; b < world->body_count; b++) {
       const SporeBody *body = &world->bodies[b];
       if (!reaches(world, lens, body)) continue;
-      if (is_smoke(body)) meet_smoke(world, body, &met);
+      if (is_smoke(body)) meet_smoke(world, lens, body, &met);
       else meet_drops(world, lens, body, &met);
     }
     take_on(&world->lenses.state[i], lens, &met, steps * world->solver.time_step);
