@@ -425,6 +425,39 @@ static void follow(double twist) {
   rig_free(rig);
 }
 
+/* What blood may stain goes with a line that carries what lies beside it: each place stays beside its sphere while
+ * control points come. */
+static void test_stained(void) {
+  Rig *rig = draped(3e5);
+  SporeTriangleMesh cube;
+  SporeSphereSet drops;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(0.004, 0.004, 0.004));
+  SporeModel *blood = rig_fluid_model(&cube, 20, NULL);
+  g_assert_true(blood->type->spheres(blood, &drops, NULL));
+  SporeBodyDescription *far = rig_passive(rig, "blood", blood, &drops);
+  far->effect = true;
+  far->pose.position = spore_vec3(1, 0, 0);
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 200);
+  const SporeBody *body = &world->bodies[0];
+  const SporeStainUnit *unit = &world->stains.units[0];
+  const double *q = world->state.q + body->q_offset;
+  double off = 0;
+  for (size_t s = 0; s < body->collision.spheres.point_count; s++)
+    for (size_t i = unit->first[s]; i < unit->first[s + 1]; i++)
+      off = fmax(off, spore_vec3_distance(spore_mapping_position(&unit->mapping, i, q),
+                                          spore_mapping_position(&body->collision.spheres, s, q)));
+  SporeLineState line;
+  spore_world_line_state(world, 0, &line);
+  g_test_message("%zu places are at most %.1e m from their spheres; +%llu control points", unit->count, off,
+                 (unsigned long long)line.inserted);
+  g_assert_cmpuint(unit->count, >, 100);
+  g_assert_cmpuint(line.inserted, >, 4);
+  g_assert_cmpfloat(off, <, 1.5 * RADIUS);
+  spore_sphere_set_clear(&drops);
+  rig_free(rig);
+}
+
 static void test_follow(void) { follow(0); }
 static void test_follow_twisted(void) { follow(3e5); }
 
@@ -487,6 +520,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/spline_refinement/twisted-momentum", test_twisted_momentum);
   g_test_add_func("/spline_refinement/repeats", test_repeats);
   g_test_add_func("/spline_refinement/follow", test_follow);
+  g_test_add_func("/spline_refinement/stained", test_stained);
   g_test_add_func("/spline_refinement/follow-twisted", test_follow_twisted);
   g_test_add_func("/spline_refinement/pulled", test_pulled);
   g_test_add_func("/spline_refinement/threads", test_threads);

@@ -143,12 +143,12 @@ static bool lay_places(SporeStainUnit *unit, const SporeSphereSet *set, double s
   return made;
 }
 
-/* What is drawn along knots that come and go is not stained, nor what cannot carry the places. */
+/* What cannot carry the places is not stained. */
 static bool make_unit(SporeWorld *world, uint32_t index, const SporeSphereSet *set, double spacing) {
   SporeStainUnit *unit = &world->stains.units[index];
   const SporeBody *body = &world->bodies[index];
   unit->start = world->stains.count;
-  if (!set || set->count == 0 || spore_body_is_fluid(body) || body->refinement.possible) return true;
+  if (!set || set->count == 0 || spore_body_is_fluid(body)) return true;
   if (!lay_places(unit, set, wide_enough(set, spacing))) return false;
   SporeError error = SPORE_ERROR_INIT;
   if (!spore_body_map(world, index, SPORE_LOD_FINE, unit->rest, unit->count, world->cancel, &unit->mapping, &error))

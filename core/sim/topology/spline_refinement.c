@@ -95,12 +95,14 @@ static void move_last_point(SporeWorld *world, uint32_t index, size_t last_befor
   }
 }
 
-/* Spheres, and points of the body that links hold, follow the new control points. */
+/* Spheres, what is stained, and points of the body that links hold, follow the new control points. */
 static void move_ends(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
   SporeSplineKnots knots = model->type->line->path(model);
   model->type->line->follow(model, knots, &world->bodies[index].collision.spheres);
+  if (world->stains.units && world->stains.units[index].count > 0)
+    model->type->line->follow(model, knots, &world->stains.units[index].mapping);
   for (size_t i = 0; i < world->links.term_count; i++)
     for (size_t side = 0; side < 2; side++) {
       const SporeEnd *end = side ? &world->links.springs[i].b : &world->links.springs[i].a;
