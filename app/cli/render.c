@@ -198,7 +198,7 @@ static void say_reach(SporeCli *cli, SporeDocument *document, const GArray *port
   spore_cli_text(cli, "body", spore_object_name(body));
   spore_cli_number(cli, "share", share);
   spore_cli_close(cli);
-  spore_cli_say(cli, _("  \"%s\": %s\n"), spore_object_name(body), part);
+  spore_cli_say(cli, _("  reached of \"%s\": %s\n"), spore_object_name(body), part);
 }
 
 /* The legend of the tint, which a picture has no room for. */
@@ -206,10 +206,11 @@ static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *n
   g_autoptr(GArray) ports = spore_stage_find_ports(document, name, error);
   const SporeObject *bodies = spore_document_section(document, "bodies");
   if (!ports) return FALSE;
-  if (ports->len == 1)
-    spore_cli_say(cli, _("Reached at the start through \"%s\" (the rest is blue):\n"),
-                  spore_object_name(g_array_index(ports, SporePortReach, 0).port));
-  else spore_cli_say(cli, _("Reached at the start through one of %u ports (the rest is blue):\n"), ports->len);
+  SporeStageLegend legend;
+  spore_stage_reach_legend(ports->len, spore_object_name(g_array_index(ports, SporePortReach, 0).port), &legend);
+  g_autofree char *text = spore_stage_legend_text(&legend);
+  spore_stage_legend_clear(&legend);
+  spore_cli_say(cli, "%s\n", text);
   spore_cli_open_array(cli, "reach");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     say_reach(cli, document, ports, spore_object_child(bodies, i));

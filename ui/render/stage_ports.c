@@ -61,3 +61,12 @@ void spore_stage_set_ports(SporeStage *stage, const SporeStagePort *ports, guint
   }
   spore_renderer_tint_beyond(stage->renderer, cones, tinting);
 }
+
+gboolean spore_stage_reach_legend(guint count, const char *name, SporeStageLegend *legend) {
+  *legend = (SporeStageLegend){0};
+  if (count == 0) return FALSE;
+  legend->label =
+      count > 1 ? g_strdup(_("Out of reach of every port")) : g_strdup_printf(_("Out of reach of \"%s\""), name);
+  legend->range = g_strdup(_("blue, at the start"));
+  return TRUE;
+}

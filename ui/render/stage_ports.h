@@ -18,4 +18,8 @@ typedef struct SporeStagePort {
 } SporeStagePort;
 void spore_stage_set_ports(SporeStage *stage, const SporeStagePort *ports, guint count);
 
+/* What the tint of so many ports says, as in spore_stage_legend; name: of the one. count 0: FALSE, nothing is tinted.
+ */
+gboolean spore_stage_reach_legend(guint count, const char *name, SporeStageLegend *legend);
+
 #endif

@@ -208,10 +208,12 @@ static int draw_link_legend(SporeViewport *self, cairo_t *cr, int width, int hei
 }
 
 static int draw_reach_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  g_autofree char *tint = spore_viewport_reach_legend(self);
-  if (!tint) return 0;
-  Legend legend = {.label = tint, .low = _("at the start"), .tint = TRUE};
-  return draw_legend(self, cr, width, height, &legend);
+  SporeStageLegend reach;
+  if (!spore_viewport_reach_legend(self, &reach)) return 0;
+  Legend legend = {.label = reach.label, .notes = {reach.range}, .tint = TRUE};
+  int taken = draw_legend(self, cr, width, height, &legend);
+  spore_stage_legend_clear(&reach);
+  return taken;
 }
 
 /* Draws the legends of all that is shown, one above the other; those of what a candidate hides are left out. */

@@ -62,15 +62,14 @@ void spore_viewport_set_reach(SporeViewport *self, gboolean shown) {
   spore_viewport_redraw(self);
 }
 
-char *spore_viewport_reach_legend(SporeViewport *self) {
+gboolean spore_viewport_reach_legend(SporeViewport *self, SporeStageLegend *legend) {
   guint tinting = 0;
   const char *name = NULL;
   for (guint i = 0; i < self->ports->len; i++) {
     const Port *port = &g_array_index(self->ports, Port, i);
     if (port->shown.tints) tinting++, name = port->name;
   }
-  if (tinting == 0) return NULL;
-  return tinting > 1 ? g_strdup(_("Out of reach of every port")) : g_strdup_printf(_("Out of reach of \"%s\""), name);
+  return spore_stage_reach_legend(tinting, name, legend);
 }
 
 static gboolean is_shown(SporeViewport *self) { return self->document && !self->presented; }

@@ -221,8 +221,8 @@ GArray *spore_viewport_ports_new(void);
 /* Reads the ports that are to be shown. */
 void spore_viewport_ports_refresh(SporeViewport *self);
 void spore_viewport_ports_draw(SporeViewport *self, cairo_t *cr); /* handles and names */
-/* What the tint says, translated, g_free; NULL: nothing is tinted. */
-char *spore_viewport_reach_legend(SporeViewport *self);
+/* What the tint says. FALSE: nothing is tinted. */
+gboolean spore_viewport_reach_legend(SporeViewport *self, SporeStageLegend *legend);
 gboolean spore_viewport_ports_press(SporeViewport *self, double x, double y); /* FALSE: no port was there */
 /* body: what the cursor meets, at that place of the scene; 0: nothing. */
 void spore_viewport_ports_motion(SporeViewport *self, guint32 body, SporeVec3 surface);
