@@ -1,8 +1,6 @@
 /* Ports over the picture: what the selected instrument, or all, reach through them, and a port moved by hand. */
 #include "ui/viewport/spore-viewport-private.h"
 
-#include <glib/gi18n.h>
-
 #include "core/author/edits.h"
 #include "core/author/port_edits.h"
 #include "ui/panels/report.h"
