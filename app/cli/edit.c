@@ -518,7 +518,8 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
       {"fluid", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.fluid,
        N_("Add a fluid at a place of an organ, m, after its instruments: KIND@X,Y,Z or KIND:NAME@X,Y,Z; bleeding, "
           "wound (bleeds from a "
-          "cut until it is coagulated), pool (poured there), steam, coagulation (steam of the bipolar instrument that "
+          "cut until it is coagulated or clamped), pool (poured there), steam, coagulation (steam of the bipolar "
+          "instrument that "
           "is nearest), irrigation (water out of the nearest suction tube, while its second button is down) "
           "(may be repeated)"),
        "KIND@X,Y,Z"},

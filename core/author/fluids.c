@@ -27,8 +27,8 @@ static const char *const coagulation[] = {"rate",   "70",      "speed",       "0
 const SporeFluidKind spore_fluids[] = {
     {"bleeding", N_("Bleeding"), N_("comes out of an organ from the start"), BLOOD, SPORE_MOUTH_ORGAN, 100, liquid, wet,
      bleeding},
-    {"wound", N_("Bleeding of a cut"), N_("begins when the organ is cut, and ends when it is coagulated"), BLOOD,
-     SPORE_MOUTH_TISSUE, 100, liquid, wet, wound},
+    {"wound", N_("Bleeding of a cut"), N_("begins when the organ is cut, and ends when it is coagulated or clamped"),
+     BLOOD, SPORE_MOUTH_TISSUE, 100, liquid, wet, wound},
     {"pool", N_("Pool of blood"), N_("is poured onto the organ"), BLOOD, SPORE_MOUTH_NONE, 100, liquid, wet, NULL},
     {"steam", N_("Steam"), N_("rises from an organ all the time"), STEAM, SPORE_MOUTH_ORGAN, 120, NULL, NULL, rising},
     {"coagulation", N_("Steam of coagulation"), N_("rises where a bipolar instrument coagulates"), STEAM,

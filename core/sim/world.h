@@ -80,6 +80,8 @@ typedef struct SporeEmitterFields {
   double start;    /* s, simulated time before which nothing comes */
   int64_t reserve; /* particles */
   int trigger;     /* SporeFlowTrigger; the button is that of the device that moves the source */
+  double clamp_distance; /* m, of a wound: clamps that are closed nearer on the source stop it */
+  int64_t clamps;        /* so many of them */
 } SporeEmitterFields;
 /* The parameters of SporeEmitterFields. */
 extern const SporeParameterTable spore_emitter_parameters;

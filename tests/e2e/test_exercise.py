@@ -341,6 +341,33 @@ def suction_sucks_and_what_a_wound_gives_is_lost():
 
 @check
 @alike
+def clamps_keep_a_wound_from_bleeding():
+    """A tube that is clamped on both sides and cut between gives no blood; cut too early, with one clamp where it takes two, or where none counts, it bleeds."""
+    if is_sanitized(SPORE):
+        return
+    shipped = (SCENES / "exercise-clip-and-cut.spore").read_text()
+    bleeding = shipped.replace("</assets>", '<mesh name="drop" file="table1/drop.off"/></assets>').replace(
+        "</bodies>", '<body name="blood" position="0 0.2 0"><mechanical geometry="drop" substeps="60"><lennard_jones particles="60"/></mechanical>'
+        '<fidelity mode="effect"/></body></bodies>').replace(
+        "<tools>", '<effects><emitter name="wound" body="blood" source="tube" point="0 0.004 0" direction="0 1 0" rate="20" reserve="40" '
+        'trigger="wound" CLAMPS/></effects><tools>')
+    scene, early = SCENES / "clamped-wound.spore", SCENES / "exercise-clip-and-cut" / "early.track"
+
+    def poured(clamps, *options):
+        scene.write_text(bleeding.replace("CLAMPS", clamps))
+        return json.loads(spore("run", scene, "-n", 2500, "--json", *options).stdout)["fluids"][0]["poured_ml"]
+
+    try:
+        assert poured('clamps="2"') == 0
+        assert poured('clamps="1"', "--input", early) == 0
+        assert poured('clamps="2"', "--input", early) > 0
+        assert poured('clamp_distance="0"') > 0
+    finally:
+        scene.unlink()
+
+
+@check
+@alike
 def a_wound_bleeds_from_the_cut_until_it_is_coagulated():
     if is_sanitized(SPORE):
         return

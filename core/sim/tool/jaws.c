@@ -385,6 +385,18 @@ const SporeToolType spore_grasper = {.element = "grasper",
                                      .state = spore_jaws_state,
                                      .holds = holds};
 
+static bool pinches(const SporeWorld *world, const SporeTool *tool, uint32_t body, SporeVec3 place, double distance) {
+  const SporeJaws *jaws = (const SporeJaws *)tool;
+  const SporeSpheres *spheres = &world->contact.spheres;
+  for (size_t i = 0; i < tool->spring_count; i++) {
+    const SporeHold *hold = &jaws->holds[i];
+    if (hold->state == SPORE_HOLD_TIED && spheres->body[hold->sphere] == body &&
+        spore_vec3_distance(spore_vec3_load(spheres->centre + 3 * (size_t)hold->sphere), place) < distance)
+      return true;
+  }
+  return false;
+}
+
 const SporeToolType spore_clamp = {
     .element = "clamp",
     .label = N_("Clamp"),
@@ -401,4 +413,5 @@ const SporeToolType spore_clamp = {
     .tear = tear,
     .feed_back = spore_jaws_feed_back,
     .state = spore_jaws_state,
-    .holds = holds};
+    .holds = holds,
+    .pinches = pinches};

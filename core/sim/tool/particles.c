@@ -131,13 +131,27 @@ double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_
 
 /* Emission. */
 
-/* A cut opens the wound, coagulation closes it; where both come in one step, it is closed. */
+/* Enough clamps are closed on the bleeding body, near the wound. */
+static bool is_pinched(const SporeWorld *world, const SporeEmitter *emitter) {
+  SporePose frame = spore_emitter_frame(world, emitter);
+  SporeVec3 mouth = spore_pose_apply(frame, emitter->point);
+  int64_t closed = 0;
+  for (size_t i = 0; i < world->tools.count; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    closed +=
+        tool->type->pinches && tool->type->pinches(world, tool, emitter->source, mouth, emitter->fields.clamp_distance);
+  }
+  return closed >= emitter->fields.clamps;
+}
+
+/* A cut opens the wound, coagulation closes it; where both come in one step, it is closed. Clamps keep it from
+ * bleeding as long as they are closed. */
 static bool bleeds(const SporeWorld *world, SporeEmitter *emitter) {
   SporeBodyMarks now = world->bodies[emitter->source].marks;
   if (now.cut > emitter->marks.cut) emitter->bleeds = true;
   if (now.coagulated > emitter->marks.coagulated) emitter->bleeds = false;
   emitter->marks = now;
-  return emitter->bleeds;
+  return emitter->bleeds && !is_pinched(world, emitter);
 }
 
 /* Uniform in 0..1, the same on every machine. */
@@ -368,5 +382,10 @@ static const SporeParameter rows[] = {
         N_("When they come out: always; while the first button is down on the device of the instrument "
            "that the mouth is in; while that instrument coagulates tissue; from the moment when the body "
            "that the mouth is in is cut until that body is coagulated; or while the second button is down.")),
+    SPORE_ROW_REAL(SporeEmitterFields, clamp_distance, "m", 0, 1, 0.02,
+                   N_("A wound gives nothing while clamps are closed on its body nearer than this to the mouth; 0: no "
+                      "clamp stops it.")),
+    SPORE_ROW_COUNT(SporeEmitterFields, clamps, 1, 10, 1,
+                    N_("How many clamps it takes to stop a wound: 2 where blood comes from both sides of it.")),
 };
 const SporeParameterTable spore_emitter_parameters = SPORE_TABLE(rows, SporeEmitterFields);

@@ -79,6 +79,10 @@ struct SporeToolType {
   void (*state)(const struct SporeTool *tool, SporeToolState *state);
   /* Number of spheres of a body that it holds. NULL: it holds nothing. */
   size_t (*holds)(const struct SporeWorld *world, const struct SporeTool *tool, uint32_t body);
+  /* Whether it is closed on the body, so that no blood gets through, nearer than that to the place (world, m). NULL: it
+   * never is. */
+  bool (*pinches)(const struct SporeWorld *world, const struct SporeTool *tool, uint32_t body, SporeVec3 place,
+                  double distance);
 };
 
 /* What closes jaws. */
@@ -109,7 +113,7 @@ typedef enum SporeFlowTrigger {
   SPORE_FLOW_ALWAYS,
   SPORE_FLOW_BUTTON,       /* while the first button is down */
   SPORE_FLOW_COAGULATION,  /* while the tool coagulates tissue */
-  SPORE_FLOW_WOUND,        /* from a cut in the body until the body is coagulated */
+  SPORE_FLOW_WOUND,        /* from a cut in the body until it is coagulated, and not while it is clamped */
   SPORE_FLOW_SECOND_BUTTON /* while the second button is down */
 } SporeFlowTrigger;
 /* Parameters of suction. */
