@@ -238,6 +238,17 @@ double *spore_region_marks(const SporeObject *holder, gsize *count) {
 
 /* Facts. */
 
+/* The box around balls. */
+static void bound_balls(const double *balls, guint count, double lower[3], double upper[3]) {
+  for (int k = 0; k < 3; k++) {
+    lower[k] = HUGE_VAL, upper[k] = -HUGE_VAL;
+    for (guint b = 0; b < count; b++) {
+      lower[k] = fmin(lower[k], balls[4 * b + k] - balls[4 * b + 3]);
+      upper[k] = fmax(upper[k], balls[4 * b + k] + balls[4 * b + 3]);
+    }
+  }
+}
+
 /* Tetrahedra of the body that the region holds. FALSE: it is not a region of a body that has some. */
 static gboolean count_cells(SporeDocument *document, const SporeObject *region, gsize *held, gsize *all) {
   SporeObject *body = spore_object_parent(spore_object_parent(region));
@@ -245,11 +256,17 @@ static gboolean count_cells(SporeDocument *document, const SporeObject *region, 
   SporeObject *asset = of_body ? spore_edit_body_tetrahedra(document, body) : NULL;
   const SporeTetrahedralMesh *cells = asset ? spore_document_tetrahedra(document, asset, NULL) : NULL;
   if (!cells) return FALSE;
+  double lower[3], upper[3];
   guint count = spore_region_ball_count(region);
   g_autofree double *balls = g_new(double, 4 * count), *middles = middles_of(cells);
   spore_region_read_balls(region, balls);
+  bound_balls(balls, count, lower, upper);
   *held = 0, *all = cells->tetrahedron_count;
-  for (gsize i = 0; i < *all; i++) *held += spore_balls_hold(balls, count, spore_vec3_load(middles + 3 * i));
+  for (const double *m = middles; m < middles + 3 * *all; m += 3) {
+    gboolean near = TRUE;
+    for (int k = 0; k < 3; k++) near = near && m[k] > lower[k] && m[k] < upper[k];
+    *held += near && spore_balls_hold(balls, count, spore_vec3_load(m));
+  }
   return TRUE;
 }
 

@@ -1237,10 +1237,11 @@ def a_region_is_painted():
         editor.find("label", f"^Painted with {fine} dabs. Holds [0-9]+ of [0-9]+ tetrahedra", showing=False)
         editor.drawn_view()
         keep_picture(editor, "painted_region")
-        # A wider brush covers the dabs of the narrow one.
+        # A wider brush covers the dabs of the narrow one, and what is said of the region follows.
         editor.mouse("mousemove", middle[0] + 30, middle[1], *("click", 4) * 14)
         editor.mouse("click", 1)
         ui.wait(lambda: 0 < saved(editor, "painted").count("radius") and dabs() < fine, "the dab to cover others")
+        editor.find("label", "^Holds [0-9]+ of [0-9]+ tetrahedra" if not dabs() else f"^Painted with {dabs()} dab", showing=False)
         editor.act("undo")
         ui.wait(lambda: saved(editor, "painted") == painted, "the click to be undone")
         editor.mouse("keydown", "ctrl", "click", 1, "keyup", "ctrl")

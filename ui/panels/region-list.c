@@ -6,6 +6,7 @@
 #include "core/author/region_edits.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-property-row.h"
+#include "ui/panels/spore-section-list.h"
 
 static void activate_named(GtkButton *button, const char *action) {
   const char *path = g_object_get_data(G_OBJECT(button), "path");
@@ -43,26 +44,30 @@ static GtkWidget *new_head(SporeObject *region, const char *path) {
   return head;
 }
 
-static void add_text(GtkBox *box, const char *text) {
-  GtkWidget *label = gtk_label_new(text);
-  gtk_label_set_xalign(GTK_LABEL(label), 0);
-  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
-  gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
-  gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
-  gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
-  gtk_container_add(GTK_CONTAINER(box), label);
+/* The facts follow the region, and what it holds. */
+static void show_facts(GtkLabel *label) {
+  SporeEditorDocument *document = g_object_get_data(G_OBJECT(label), "document");
+  const char *path = g_object_get_data(G_OBJECT(label), "path");
+  const SporeObject *region = spore_document_by_path(spore_editor_document_get(document), path);
+  g_autofree char *facts = region ? spore_region_facts(spore_editor_document_get(document), region) : NULL;
+  gtk_label_set_text(label, facts ? facts : "");
+  gtk_widget_set_visible(GTK_WIDGET(label), facts != NULL);
 }
 
-static void add_facts(GtkBox *box, SporeDocument *document, const SporeObject *region) {
-  g_autofree char *facts = spore_region_facts(document, region);
-  if (facts) add_text(box, facts);
+static void add_facts(GtkBox *box, SporeEditorDocument *document, const char *path) {
+  GtkWidget *label = spore_section_fact_new(box);
+  g_object_set_data(G_OBJECT(label), "document", document);
+  g_object_set_data_full(G_OBJECT(label), "path", g_strdup(path), g_free);
+  gtk_widget_set_no_show_all(label, TRUE);
+  g_signal_connect_object(document, "changed", G_CALLBACK(show_facts), label, G_CONNECT_SWAPPED);
+  show_facts(GTK_LABEL(label));
 }
 
 static void add_region(GtkBox *box, SporeEditorDocument *document, SporeObject *region, GPtrArray *rows) {
   g_autofree char *path = spore_object_path(region);
   const SporeObjectType *type = spore_object_type(region);
   gtk_container_add(GTK_CONTAINER(box), new_head(region, path));
-  add_facts(box, spore_editor_document_get(document), region);
+  add_facts(box, document, path);
   for (guint i = 0; i < type->table->count; i++) {
     GtkWidget *row = spore_property_row_new(document, path, type, i);
     gtk_container_add(GTK_CONTAINER(box), row);
@@ -81,7 +86,7 @@ void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const ch
     add_region(box, document, child, rows);
     count++;
   }
-  if (!count) add_text(box, empty);
+  if (!count) gtk_label_set_text(GTK_LABEL(spore_section_fact_new(box)), empty);
   GtkWidget *button = new_button(gtk_button_new_with_label(_("Add region")), "add-region", holder);
   gtk_widget_set_tooltip_text(button,
                               _("A ball in the middle of the body, to be placed and sized in the view or by its rows"));

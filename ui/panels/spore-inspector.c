@@ -85,17 +85,6 @@ static void add_unit(SporeInspector *self, GtkBox *box, SporeObject *body, const
   if (type) add_rows(self, box, path, type, NULL);
 }
 
-static GtkWidget *add_fact(GtkBox *box) {
-  GtkWidget *label = gtk_label_new(NULL);
-  gtk_label_set_xalign(GTK_LABEL(label), 0);
-  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
-  gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
-  gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
-  gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
-  gtk_container_add(GTK_CONTAINER(box), label);
-  return label;
-}
-
 /* Facts. */
 
 /* A mesh may be large, so its figures are kept. */
@@ -240,7 +229,7 @@ static void add_generator_regions(SporeInspector *self, GtkBox *box, SporeObject
 static void add_mapping(SporeInspector *self, const char *path) {
   GtkBox *box = spore_section_list_add(sections_of(self), _("Mapping"), path, NULL);
   if (!box) return;
-  g_set_weak_pointer(&self->mapping_facts, add_fact(box));
+  g_set_weak_pointer(&self->mapping_facts, spore_section_fact_new(box));
   GtkWidget *measure = gtk_button_new_with_label(_("Measure mapping"));
   gtk_widget_set_halign(measure, GTK_ALIGN_START);
   gtk_widget_set_tooltip_text(measure, _("Compile the scene and measure how far vertices and spheres lie off"));
@@ -251,7 +240,7 @@ static void add_mapping(SporeInspector *self, const char *path) {
 static void add_visual(SporeInspector *self, SporeObject *body, const char *path) {
   GtkBox *box = spore_section_list_add(sections_of(self), _("Visual mesh"), path, NULL);
   if (!box) return;
-  g_set_weak_pointer(&self->mesh_facts, add_fact(box));
+  g_set_weak_pointer(&self->mesh_facts, spore_section_fact_new(box));
   GtkWidget *lay = spore_action_button_new(_("Choose a picture…"), "win.lay-picture-dialog",
                                            _("Lay a PNG or JPEG over the organ, whose mesh has to say where its "
                                              "corners lie in one (UV)"));
@@ -297,7 +286,7 @@ static void add_mechanical(SporeInspector *self, SporeObject *body, const char *
   gtk_container_add(GTK_CONTAINER(box), self->model);
   add_generators(self, box, body, "mechanical");
   add_unit(self, box, body, "mechanical");
-  g_set_weak_pointer(&self->swing_facts, add_fact(box));
+  g_set_weak_pointer(&self->swing_facts, spore_section_fact_new(box));
   g_signal_connect_object(self->swing_facts, "map", G_CALLBACK(queue_refresh), self, G_CONNECT_SWAPPED);
   add_generator_regions(self, box, asset,
                         _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
@@ -319,7 +308,7 @@ static void add_model(SporeInspector *self, SporeObject *model) {
 static void add_body(SporeInspector *self, SporeObject *body) {
   g_autofree char *path = spore_object_path(body);
   GtkBox *own = spore_section_list_add(sections_of(self), _("Body"), path, NULL);
-  if (own) g_set_weak_pointer(&self->port_facts, add_fact(own));
+  if (own) g_set_weak_pointer(&self->port_facts, spore_section_fact_new(own));
   if (own) add_object(self, own, body);
   add_visual(self, body, path);
   add_collision(self, body, path);
@@ -359,7 +348,7 @@ static void add_patient(GtkBox *box) {
 static void add_one(SporeInspector *self, SporeObject *object) {
   g_autofree char *path = spore_object_path(object);
   GtkBox *box = spore_section_list_add(sections_of(self), _(spore_object_type(object)->label), path, NULL);
-  if (box && spore_object_name(object)) g_set_weak_pointer(&self->port_facts, add_fact(box));
+  if (box && spore_object_name(object)) g_set_weak_pointer(&self->port_facts, spore_section_fact_new(box));
   if (box) add_object(self, box, object);
   if (box && g_str_equal(spore_object_type(object)->element, "environment")) add_patient(box);
 }
@@ -368,7 +357,7 @@ static void add_one(SporeInspector *self, SporeObject *object) {
 static void add_measured(SporeInspector *self, SporeObject *measured) {
   g_autofree char *path = spore_object_path(measured);
   GtkBox *box = spore_section_list_add(sections_of(self), _(spore_object_type(measured)->label), path, NULL);
-  if (box) g_set_weak_pointer(&self->measured_facts, add_fact(box));
+  if (box) g_set_weak_pointer(&self->measured_facts, spore_section_fact_new(box));
 }
 
 /* Sections of the scene that hold settings rather than objects. */

@@ -75,6 +75,17 @@ void spore_section_list_end(SporeSectionList *self) {
   gtk_widget_show_all(GTK_WIDGET(self));
 }
 
+GtkWidget *spore_section_fact_new(GtkBox *box) {
+  GtkWidget *label = gtk_label_new(NULL);
+  gtk_label_set_xalign(GTK_LABEL(label), 0);
+  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+  gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
+  gtk_container_add(GTK_CONTAINER(box), label);
+  return label;
+}
+
 void spore_section_list_refresh(SporeSectionList *self) {
   g_autoptr(GList) sections = gtk_container_get_children(GTK_CONTAINER(self));
   for (GList *section = sections; section; section = section->next) {

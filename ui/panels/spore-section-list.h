@@ -21,6 +21,8 @@ void spore_section_list_end(SporeSectionList *self);
 
 /* SporePropertyRow * of a section, borrowed from the box, to be added to. */
 GPtrArray *spore_section_rows(GtkBox *box);
+/* An empty label for facts, at the end of a section. */
+GtkWidget *spore_section_fact_new(GtkBox *box);
 /* Every row shows the value now in force. */
 void spore_section_list_refresh(SporeSectionList *self);
 
