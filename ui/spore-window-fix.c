@@ -25,10 +25,6 @@ static void fix(SporeWindow *self, const SporeDiagnostic *problem) {
   g_clear_pointer(&work, spore_fix_work_free);
 }
 
-const SporeDiagnostic *spore_window_said_problem(SporeWindow *self) {
-  return spore_problems_fixable(SPORE_PROBLEMS(self->problems), gtk_label_get_text(GTK_LABEL(self->message)));
-}
-
 static void fix_or_locate(SporeWindow *self, const SporeDiagnostic *problem) {
   if (problem->fix == SPORE_FIX_LOCATE) spore_window_ask_to_locate(self);
   else fix(self, problem);

@@ -113,6 +113,8 @@ void spore_window_complain(SporeWindow *self, const char *message);
  * with its target where it has one; both NULL: none. */
 void spore_window_complain_while(SporeWindow *self, SporeCause cause, const char *message, const char *remedy,
                                  const char *action);
+/* The problem with a fix that the message tells of; NULL: none is. Borrowed until the next check. */
+const SporeDiagnostic *spore_window_said_problem(SporeWindow *self);
 /* Gives the message that is shown the button of a fix, where it has none and the checks found its cause. */
 void spore_window_offer_fix(SporeWindow *self);
 /* Something else is being worked on. */
@@ -227,8 +229,6 @@ void spore_window_fill_template_menu(SporeWindow *self);
 
 /* spore-window-fix.c: what mends a problem. */
 void spore_window_add_fix_actions(SporeWindow *self);
-/* The problem with a fix that the message tells of; NULL: none is. Borrowed until the next check. */
-const SporeDiagnostic *spore_window_said_problem(SporeWindow *self);
 
 /* spore-window-film.c: pictures of the view, and films of runs. */
 void spore_window_add_film_actions(SporeWindow *self);

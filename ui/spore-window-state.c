@@ -48,6 +48,10 @@ static void offer_remedy(SporeWindow *self, const char *remedy, const char *acti
   set_remedy(GTK_ACTIONABLE(self->message_remedy), action);
 }
 
+const SporeDiagnostic *spore_window_said_problem(SporeWindow *self) {
+  return spore_problems_fixable(SPORE_PROBLEMS(self->problems), gtk_label_get_text(GTK_LABEL(self->message)));
+}
+
 void spore_window_offer_fix(SporeWindow *self) {
   if (!gtk_widget_get_visible(self->message_bar) || gtk_widget_get_visible(self->message_remedy)) return;
   const SporeDiagnostic *problem = spore_window_said_problem(self);
