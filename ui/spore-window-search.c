@@ -19,6 +19,7 @@ static const struct {
     {"app.look::dark", N_("Dark windows")},
     {"app.reset-preferences", N_("Preferences: reset all")},
     {"win.fix", N_("Fix the selected problem")},
+    {"win.fix-said", N_("Fix what the message tells of")},
     {"win.undo", N_("Undo")},
     {"win.redo", N_("Redo")},
     {"win.play-pause", N_("Play or pause")},
