@@ -534,8 +534,12 @@ def stale_and_frozen():
         assert 'frozen' not in saved(editor, "fresh")
         editor.act("set-property", "(sss)", ("assets/ball_spheres", "count", "14"))
         editor.press(editor.find("radio button", "^Problems"))
-        click(editor, middle(editor, editor.find("table cell", "is stale: its options have changed")))
-        editor.find("push button", "^Generate it$")
+
+        def offered():
+            """The list is filled anew after a check, and then nothing is selected."""
+            click(editor, middle(editor, editor.find("table cell", "is stale: its options have changed")))
+            return editor.look("push button", "^Generate it$")
+        ui.wait(offered, "the fix to be offered")
         keep_picture(editor, "fix-offered")
         editor.press(editor.find("push button", "^Generate it$"))
         ui.wait(lambda: not editor.look("table cell", "is stale"), "the fix")
