@@ -2600,6 +2600,7 @@ def two_balls(name, links=""):
 def on_balls(editor):
     """Places on the screen: on the left ball, on the right one, and above both."""
     ui.wait(lambda: editor.row("left") and editor.row("right"), "the scene")
+    editor.drawn_view()  # before it, clicks meet nothing
     editor.act("frame")
     editor.act("view", "s", "front")
     x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
