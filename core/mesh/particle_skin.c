@@ -196,9 +196,13 @@ static bool lattice_init(Lattice *lattice, const double *centres, size_t count, 
 
 bool spore_particle_skin(const double *centres, size_t count, double spacing, SporeTriangleMesh *mesh,
                          SporeError *error) {
-  assert(spacing > 0 && (count == 0 || centres));
+  assert(count == 0 || (spacing > 0 && centres));
   Lattice lattice;
   SporeTriangleMesh size = {0}, made = {0};
+  if (count == 0) {
+    *mesh = made;
+    return true;
+  }
   if (!lattice_init(&lattice, centres, count, spacing)) {
     spore_free(lattice.samples);
     return spore_mesh_no_memory(error);
