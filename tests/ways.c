@@ -24,7 +24,7 @@ char *__real_spore_copy_text(const char *text);
 char *__wrap_spore_copy_text(const char *text);
 
 #ifdef __SANITIZE_ADDRESS__
-#define TWINS_MOST 60 /* of a work: a twin takes twenty times as long */
+#define TWINS_MOST 200 /* of a work: a twin takes twenty times as long */
 
 /* What was freed is kept aside for long, and each twin would copy the tables of its pages. */
 const char *__asan_default_options(void);
