@@ -324,6 +324,9 @@ static void feed(Reader *reader, gsize size) {
     fail(reader, 1, 1, "%s", _("this is not well-formed XML; expected tags that match and quoted values; correct it"));
 }
 
+/* What libxml2 prints by itself while it has no memory for a parser: the reader says it. */
+static void say_nothing(void *context, const char *format, ...) {}
+
 static void parse(Reader *reader, gsize size) {
   xmlSAXHandler handler = {.initialized = XML_SAX2_MAGIC,
                            .startElementNs = on_start,
@@ -331,7 +334,9 @@ static void parse(Reader *reader, gsize size) {
                            .comment = on_comment,
                            .internalSubset = on_document_type,
                            .serror = on_error};
+  xmlSetGenericErrorFunc(NULL, say_nothing); /* of this thread */
   reader->parser = xmlCreatePushParserCtxt(&handler, NULL, NULL, 0, NULL);
+  xmlSetGenericErrorFunc(NULL, NULL);
   if (!reader->parser) {
     fail_as(reader, SPORE_ERROR_MEMORY, 1, 1, no_memory());
     return;
