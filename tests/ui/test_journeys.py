@@ -2644,6 +2644,7 @@ def what_is_seen_is_measured():
     """distance, angle and volume are measured by clicks, listed, and removed one by one and all together; Escape goes back; an open surface has no volume."""
     with start(a_box("measured")) as editor:
         ui.wait(lambda: editor.row("hollow"), "the scene")
+        editor.drawn_view()  # before it, clicks meet nothing
         editor.act("select", "s", "bodies/hollow")
         editor.act("hide")
         editor.act("frame")
