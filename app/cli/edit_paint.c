@@ -20,18 +20,16 @@ static gboolean read_dab(const char *text, SporeVec3 *place, double *radius) {
 }
 
 static GArray *balls_of(const SporeObject *region) {
-  guint count = spore_region_ball_count(region);
-  g_autofree double *balls = g_new(double, 4 * count);
-  spore_region_read_balls(region, balls);
+  guint count;
+  g_autofree double *balls = spore_region_balls(region, &count);
   return spore_brush_balls_new(balls, count);
 }
-
-static const double *numbers(const GArray *balls) { return (const double *)(const void *)balls->data; }
 
 static SporeObject *add_region(SporeDocument *document, const char *path, const GArray *balls, GError **error) {
   const char *slash = strrchr(path, '/');
   g_autofree char *holder = slash ? g_strndup(path, (gsize)(slash - path)) : g_strdup(path);
-  return spore_edit_add_painted_region(document, holder, slash ? slash + 1 : NULL, numbers(balls), balls->len, error);
+  return spore_edit_add_painted_region(document, holder, slash ? slash + 1 : NULL, spore_brush_numbers(balls),
+                                       balls->len, error);
 }
 
 gboolean spore_cli_paint(SporeDocument *document, const char *text, GPtrArray *changed, GError **error) {
@@ -49,7 +47,7 @@ gboolean spore_cli_paint(SporeDocument *document, const char *text, GPtrArray *c
   else if (region) {
     g_autoptr(GArray) balls = balls_of(region);
     if (spore_brush_paint(balls, place, radius) &&
-        !spore_edit_paint_region(document, region, numbers(balls), balls->len, error))
+        !spore_edit_paint_region(document, region, spore_brush_numbers(balls), balls->len, error))
       return FALSE;
   } else {
     g_autoptr(GArray) balls = spore_brush_balls_new(NULL, 0);

@@ -23,6 +23,14 @@ static void count_warning(j_common_ptr reader, int level) {
   if (level < 0) fail(reader);
 }
 
+/* The handler that goes back to where `back` was set, at errors and at warnings. */
+static struct jpeg_error_mgr *handler_of(Fault *fault) {
+  struct jpeg_error_mgr *manager = jpeg_std_error(&fault->manager);
+  manager->error_exit = fail;
+  manager->emit_message = count_warning;
+  return manager;
+}
+
 bool spore_photograph_is(const void *content, size_t size) {
   return size > 3 && memcmp(content, "\xff\xd8\xff", 3) == 0;
 }
@@ -39,9 +47,7 @@ bool spore_photograph_size(const void *content, size_t size, int *width, int *he
   struct jpeg_decompress_struct reader;
   Fault fault;
   volatile bool done = false;
-  reader.err = jpeg_std_error(&fault.manager);
-  fault.manager.error_exit = fail;
-  fault.manager.emit_message = count_warning;
+  reader.err = handler_of(&fault);
   if (setjmp(fault.back) == 0) {
     jpeg_create_decompress(&reader);
     done = begin(&reader, content, size, width, height);
@@ -55,9 +61,7 @@ unsigned char *spore_photograph_pixels(const void *content, size_t size, int *wi
   Fault fault;
   unsigned char *volatile pixels = NULL;
   volatile bool done = false;
-  reader.err = jpeg_std_error(&fault.manager);
-  fault.manager.error_exit = fail;
-  fault.manager.emit_message = count_warning;
+  reader.err = handler_of(&fault);
   if (setjmp(fault.back) == 0) {
     jpeg_create_decompress(&reader);
     if (begin(&reader, content, size, width, height)) {

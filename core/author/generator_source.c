@@ -28,10 +28,8 @@ const char *spore_region_element(const SporeObjectType *holder) {
 
 /* Reads the balls of a region. The last of its own parameters is its setting (density, size). */
 static void read_region(const SporeObject *object, gsize index, SporeGenerateRegion *regions) {
-  guint count = spore_region_ball_count(object);
-  g_autofree double *balls = g_new(double, 4 * count);
-  guint setting = (guint)spore_object_type(object)->table->count - 1;
-  spore_region_read_balls(object, balls);
+  guint count, setting = (guint)spore_object_type(object)->table->count - 1;
+  g_autofree double *balls = spore_region_balls(object, &count);
   for (guint i = 0; i < count; i++) {
     regions[i] = (SporeGenerateRegion){
         .radius = balls[4 * i + 3], .value = spore_object_value(object, setting)->number[0], .region = index};

@@ -227,9 +227,8 @@ double *spore_region_marks(const SporeObject *holder, gsize *count) {
   GArray *segments = g_array_new(FALSE, FALSE, 6 * sizeof(double));
   for (guint i = 0; element && i < spore_object_child_count(holder); i++) {
     const SporeObject *region = spore_object_child(holder, i);
-    guint balls = spore_region_ball_count(region);
-    g_autofree double *all = g_new(double, 4 * balls);
-    spore_region_read_balls(region, all);
+    guint balls;
+    g_autofree double *all = spore_region_balls(region, &balls);
     for (guint b = 0; b < balls; b++) mark_ball(segments, all + 4 * b, balls > 1);
   }
   *count = segments->len;
@@ -257,9 +256,8 @@ static gboolean count_cells(SporeDocument *document, const SporeObject *region, 
   const SporeTetrahedralMesh *cells = asset ? spore_document_tetrahedra(document, asset, NULL) : NULL;
   if (!cells) return FALSE;
   double lower[3], upper[3];
-  guint count = spore_region_ball_count(region);
-  g_autofree double *balls = g_new(double, 4 * count), *middles = middles_of(cells);
-  spore_region_read_balls(region, balls);
+  guint count;
+  g_autofree double *balls = spore_region_balls(region, &count), *middles = middles_of(cells);
   bound_balls(balls, count, lower, upper);
   *held = 0, *all = cells->tetrahedron_count;
   for (const double *m = middles; m < middles + 3 * *all; m += 3) {

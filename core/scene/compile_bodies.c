@@ -109,13 +109,14 @@ static gboolean describe_region(SporeCompiler *compiler, const SporeObject *obje
                                 SporeRegion *region) {
   SporeRegionFields fields;
   if (!spore_region_check_balls(object, compiler->error)) return FALSE;
-  guint count = spore_region_ball_count(object);
+  guint count;
+  g_autofree double *balls = spore_region_balls(object, &count);
   spore_object_fields(object, &fields);
   *region = (SporeRegion){.ball_count = count,
                           .balls = spore_compiler_keep(compiler, 4 * count * sizeof(double)),
                           .stiffness = fields.stiffness_scale,
                           .density = fields.density_scale};
-  spore_region_read_balls(object, region->balls);
+  memcpy(region->balls, balls, 4 * count * sizeof *balls);
   const SporeTissue *tissue = fields.material > 0 ? &spore_tissues[fields.material - 1] : NULL;
   return !tissue || (scale_by_tissue(compiler, object, model, tissue, "young_modulus", &region->stiffness) &&
                      scale_by_tissue(compiler, object, model, tissue, "density", &region->density));

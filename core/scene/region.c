@@ -10,10 +10,12 @@ void spore_region_read_ball(const SporeObject *object, double ball[4]) {
   ball[3] = spore_object_number(object, "radius");
 }
 
-void spore_region_read_balls(const SporeObject *region, double *balls) {
-  spore_region_read_ball(region, balls);
-  for (guint i = 0; i < spore_object_child_count(region); i++)
-    spore_region_read_ball(spore_object_child(region, i), balls + 4 * (i + 1));
+double *spore_region_balls(const SporeObject *region, guint *count) {
+  *count = region ? spore_region_ball_count(region) : 0;
+  double *balls = region ? g_new(double, 4 * *count) : NULL;
+  if (region) spore_region_read_ball(region, balls);
+  for (guint i = 1; i < *count; i++) spore_region_read_ball(spore_object_child(region, i - 1), balls + 4 * i);
+  return balls;
 }
 
 gboolean spore_region_check_balls(const SporeObject *region, GError **error) {

@@ -10,8 +10,9 @@
 guint spore_region_ball_count(const SporeObject *region);
 /* Of a region, or of one of its dabs: centre and radius. */
 void spore_region_read_ball(const SporeObject *object, double ball[4]);
-/* balls: room for spore_region_ball_count x 4: centre and radius, m, in the frame that the region is in. */
-void spore_region_read_balls(const SporeObject *region, double *balls);
+/* The balls of a region: count x 4, centre and radius, m, in the frame that the region is in. g_free. NULL: no region,
+ * and *count is 0. */
+double *spore_region_balls(const SporeObject *region, guint *count);
 /* FALSE with an error at the region: it has more than SPORE_REGION_BALLS. */
 gboolean spore_region_check_balls(const SporeObject *region, GError **error);
 

@@ -22,19 +22,15 @@ static SporeObject *region_of(SporeViewport *self) {
 
 /* The balls of the region, or none of a region that is still to come. g_array_unref. */
 static GArray *balls_of(SporeViewport *self) {
-  const SporeObject *region = region_of(self);
-  guint count = region ? spore_region_ball_count(region) : 0;
-  g_autofree double *balls = g_new(double, 4 * MAX(count, 1));
-  if (region) spore_region_read_balls(region, balls);
+  guint count;
+  g_autofree double *balls = spore_region_balls(region_of(self), &count);
   return spore_brush_balls_new(balls, count);
 }
-
-static const double *numbers(const GArray *balls) { return (const double *)(const void *)balls->data; }
 
 /* The organ shows what is painted. */
 void spore_viewport_brush_show(SporeViewport *self) {
   g_autoptr(GArray) kept = self->brush.balls ? g_array_ref(self->brush.balls) : balls_of(self);
-  if (self->stage) spore_stage_set_painted(self->stage, self->brush.body, numbers(kept), kept->len);
+  if (self->stage) spore_stage_set_painted(self->stage, self->brush.body, spore_brush_numbers(kept), kept->len);
   spore_viewport_redraw(self);
 }
 
@@ -111,7 +107,8 @@ static void draw_dabs(SporeViewport *self, cairo_t *cr) {
   g_autoptr(GArray) balls = self->brush.balls ? g_array_ref(self->brush.balls) : balls_of(self);
   SporePose pose = spore_body_pose(spore_document_by_id(document_of(self), self->brush.body));
   for (guint i = 0; i < balls->len; i++) {
-    if (!spore_viewport_project(self, spore_pose_apply(pose, spore_vec3_load(numbers(balls) + 4 * i)), &x, &y))
+    if (!spore_viewport_project(self, spore_pose_apply(pose, spore_vec3_load(spore_brush_numbers(balls) + 4 * i)), &x,
+                                &y))
       continue;
     cairo_new_path(cr);
     cairo_arc(cr, x, y, DOT_PIXELS, 0, 2 * G_PI);
@@ -179,14 +176,14 @@ void spore_viewport_brush_motion(SporeViewport *self, double from_x, double from
 static gboolean commit(SporeViewport *self, const GArray *balls, GError **error) {
   SporeObject *region = region_of(self);
   if (region && balls->len)
-    return spore_edit_paint_region(document_of(self), region, numbers(balls), balls->len, error);
+    return spore_edit_paint_region(document_of(self), region, spore_brush_numbers(balls), balls->len, error);
   if (region) {
     g_autofree char *path = spore_object_path(region);
     return spore_edit_remove_region(document_of(self), path, error);
   }
   if (!balls->len) return TRUE;
-  region =
-      spore_edit_add_painted_region(document_of(self), self->brush.holder, NULL, numbers(balls), balls->len, error);
+  region = spore_edit_add_painted_region(document_of(self), self->brush.holder, NULL, spore_brush_numbers(balls),
+                                         balls->len, error);
   if (region) self->brush.region = spore_object_id(region);
   return region != NULL;
 }

@@ -74,9 +74,8 @@ static void show_region(SporeViewport *self) {
   const SporeObject *region = holder && self->edit.chosen < spore_object_child_count(holder)
                                   ? spore_object_child(holder, (guint)self->edit.chosen)
                                   : NULL;
-  guint count = region ? spore_region_ball_count(region) : 0;
-  g_autofree double *balls = g_new(double, 4 * MAX(count, 1));
-  if (region) spore_region_read_balls(region, balls);
+  guint count;
+  g_autofree double *balls = spore_region_balls(region, &count);
   if (self->stage) spore_stage_set_painted(self->stage, region ? self->edit.body : 0, balls, count);
 }
 
