@@ -37,10 +37,10 @@ static void report_form(SporeCli *cli, const char *name, const SporeForm *form) 
   spore_cli_close(cli);
 }
 
-static void report_element(SporeCli *cli, const SporeAdviceBody *body, int width) {
+static void report_element(SporeCli *cli, const SporeAdviceElement *body, int width) {
   const SporeEvidence *evidence = &body->evidence;
   const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
-  g_autofree char *id = g_strdup_printf("bodies/%s", body->name);
+  g_autofree char *id = g_strdup_printf("%s/%s", body->section, body->name);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "id", id);
   spore_cli_number(cli, "influence", out->tried ? out->influence.rms : NAN);
@@ -65,7 +65,7 @@ static void report_suggestions(SporeCli *cli, const SporeAdvice *advice) {
   guint count = 0;
   spore_cli_open_array(cli, "suggestion");
   for (gsize k = 0; k < advice->count; k++) {
-    const SporeAdviceBody *body = &advice->bodies[k];
+    const SporeAdviceElement *body = &advice->elements[k];
     double saved_us;
     const char *change = spore_advice_change(body, &saved_us);
     if (!change) continue;
@@ -92,7 +92,7 @@ static void report(SporeCli *cli, const SporeRun *run, const SporeAdvice *advice
   report_exercise(cli, &advice->exercise, &advice->floor);
   spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, _("body"), _("verdict"), _("influence"), _("cost"), _("why"));
   spore_cli_open_array(cli, "elements");
-  for (gsize k = 0; k < advice->count; k++) report_element(cli, &advice->bodies[k], width);
+  for (gsize k = 0; k < advice->count; k++) report_element(cli, &advice->elements[k], width);
   spore_cli_close_array(cli);
   report_suggestions(cli, advice);
 }
@@ -103,12 +103,12 @@ static gboolean write_scene(SporeCli *cli, const SporeAdvice *advice, SporeDocum
   guint count = output ? spore_advice_count(advice, document) : 0;
   if (!output) return TRUE;
   if (count == 0) {
-    spore_cli_say(cli, _("nothing was written: no body is to be an effect\n"));
+    spore_cli_say(cli, _("nothing was written: nothing is to be an effect\n"));
     return TRUE;
   }
   if (!spore_advice_apply(advice, document, error) || !spore_cli_save_scene(document, output, error)) return FALSE;
   spore_cli_text(cli, "scene", output);
-  spore_cli_say(cli, _("%s: written; bodies that take what was advised: %u\n"), output, count);
+  spore_cli_say(cli, _("%s: written; so many take what was advised: %u\n"), output, count);
   return TRUE;
 }
 
@@ -144,7 +144,8 @@ static int carry_out(SporeCli *cli, const char *scene, const SporeSceneOptions *
 int spore_command_advise(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"elements",
-       N_("bodies that physics moves: id, influence (without it, how far the others are elsewhere: root mean square, "
+       N_("bodies that physics moves, then clamps and emitters: id, influence (without it, how far the others are "
+          "elsewhere: root mean square, "
           "by "
           "their length; null: not tried), noise_floor (the same of half the step, or of a start that is a little "
           "off), force_N and force_floor_N (the same of forces on what devices move), cost_us (of a step, that it "
@@ -168,7 +169,8 @@ int spore_command_advise(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {
       "advise",
       "SCENE",
-      N_("Replays the scene without the physics of each of its bodies, and says which of them nobody would miss: "
+      N_("Replays the scene without the physics of each of its bodies, clamps and emitters, and says which of them "
+         "nobody would miss: "
          "physical where "
          "others "
          "feel it, or an effect where what is seen of it is enough. What has an effect is replayed as one. Where the "

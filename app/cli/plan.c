@@ -226,23 +226,6 @@ static void report_bodies(SporeCli *cli, const SporeRun *run) {
   spore_cli_say(cli, "%s", remarks->str);
 }
 
-static void report_effects(SporeCli *cli, const SporeWorld *world) {
-  spore_cli_open_array(cli, "effects");
-  for (guint body = 0; body < spore_world_body_count(world); body++) {
-    const char *name = spore_world_body_name(world, body);
-    double effect_us, physics_us;
-    if (!spore_world_effect_work(world, body, &effect_us, &physics_us)) continue;
-    spore_cli_open(cli, NULL);
-    spore_cli_text(cli, "name", name);
-    spore_cli_number(cli, "effect_us", effect_us);
-    spore_cli_number(cli, "physics_us", physics_us);
-    spore_cli_close(cli);
-    spore_cli_say(cli, _("%s: an effect, which takes about %.3g us of a step; its physics would take %.3g us\n"), name,
-                  effect_us, physics_us);
-  }
-  spore_cli_close_array(cli);
-}
-
 static void report_left_out(SporeCli *cli, const SporePlanLeftOut *left_out, const SporeWorld *world,
                             const SporeWorld *unpruned) {
   double saves_us = unpruned ? spore_pruning_saved_us(world, unpruned, left_out->stages) : NAN;
@@ -288,7 +271,6 @@ static void report(SporeCli *cli, const SporeRun *run, const GArray *needs, cons
   spore_plan_report_files_left_out(cli, document, needs);
   spore_cli_close_array(cli);
   report_bodies(cli, run);
-  report_effects(cli, world);
   report_branches(cli, world);
 }
 
@@ -314,8 +296,10 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "null: nothing does. damping_a_second: the share of its energy that the method takes from "
           "its slowest swing; null: not known")},
       {"effects",
-       N_("bodies that an effect moves: name, effect_us (of a step, by counts), physics_us (the same of their physics, "
-          "without contacts and links)")},
+       N_("what is an effect: name, kind (body, or that of the tool or emitter), effect_us (of a body, in a step, by "
+          "counts), physics_us (the same of its physics, without contacts and links), and of tools and emitters with "
+          "--measure seconds (of the recorded input, that both were run for), step_us and step_us_physical (of a step "
+          "of the scene, mean)")},
       {"branches",
        N_("names of held bodies by static, which may have several balances: the one reached by following the load "
           "from the state before is taken")},
@@ -381,6 +365,8 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   g_autoptr(GArray) needs = spore_document_asset_needs(run->document);
   report(cli, run, needs, unpruned ? unpruned->world : NULL);
+  if (!spore_plan_report_effects(cli, run, measured, &error)) return spore_cli_fail(error);
+  if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   status = measured ? spore_plan_report_pruning(cli, &pruning) : SPORE_EXIT_DONE;
   spore_plan_report_needs(cli, run, needs);
   spore_plan_report_mapping(cli, run);

@@ -15,6 +15,10 @@ gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GErro
 /* Reports every line that has a reserve of control points. measured: with the time that the world has spent on them. */
 void spore_plan_report_lines(SporeCli *cli, const SporeWorld *world, gboolean measured);
 
+/* Reports what is an effect. measured: what the effects of tools and emitters save is measured over the recorded input,
+ * in copies of the scene in which each is physical. FALSE with a GError where a copy cannot be made. */
+gboolean spore_plan_report_effects(SporeCli *cli, SporeRun *run, gboolean measured, GError **error);
+
 /* The models, files and libraries of the scene. needs: of SporeAssetNeed. */
 void spore_plan_report_needs(SporeCli *cli, const SporeRun *run, const GArray *needs);
 /* Rows of left_out: files that a run does not read. */

@@ -202,7 +202,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
                    "closing), held and lost (spheres), taken (particles), cut and coagulated (springs, elements), "
                    "pierced (surfaces) and stitches (that hold now)")},
       {"fluids", N_("where there are fluids: each one's name, present_ml (in the scene at the end), poured_ml (that "
-                    "emitters let out) and sucked_ml (that suction took away)")},
+                    "emitters let out), seeped_ml (that came out of emitters that are effects, as no particle) and "
+                    "sucked_ml (that suction took away)")},
       {"levels",
        N_("where bodies have levels: each one's name, level (at the end), changes and refused (how many), error_m "
           "(how far they moved a point of it at most), energy_J (its own, that one added at most), "

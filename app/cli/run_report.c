@@ -191,8 +191,12 @@ static void report_fluids(SporeCli *cli, const SporeWorld *world) {
     spore_cli_text(cli, "name", spore_world_body_name(world, body));
     spore_cli_number(cli, "present_ml", each * (double)spore_world_particle_count(world, body));
     spore_cli_number(cli, "poured_ml", each * (double)marks.poured);
+    spore_cli_number(cli, "seeped_ml", each * (double)marks.seeped);
     spore_cli_number(cli, "sucked_ml", each * (double)marks.sucked);
     spore_cli_close(cli);
+    if (marks.seeped > 0)
+      spore_cli_say(cli, _("%s: %.3g ml seeped out, as an effect\n"), spore_world_body_name(world, body),
+                    each * (double)marks.seeped);
     if (marks.poured + marks.sucked > 0)
       spore_cli_say(cli, _("%s: %.3g ml came out, %.3g ml were sucked away\n"), spore_world_body_name(world, body),
                     each * (double)marks.poured, each * (double)marks.sucked);

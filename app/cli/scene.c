@@ -22,6 +22,32 @@ void spore_scene_options_clear(SporeSceneOptions *options) {
   *options = (SporeSceneOptions){0};
 }
 
+/* The elements below `type` that hold such a child, each once. */
+static void find_holders(const SporeObjectType *type, const char *element, GPtrArray *holders) {
+  for (guint i = 0; i < type->children->len; i++) {
+    const SporeObjectType *child = type->children->pdata[i];
+    if (spore_object_type_child(child, element) && !g_ptr_array_find(holders, child->element, NULL))
+      g_ptr_array_add(holders, (gpointer)child->element);
+    find_holders(child, element, holders);
+  }
+}
+
+/* What is wrong with a path that names no object, and that nothing can be added for. */
+static gboolean refuse_path(SporeDocument *document, const char *path, GError **error) {
+  const char *slash = strrchr(path, '/');
+  g_autofree char *place = slash ? g_strndup(path, (gsize)(slash - path)) : NULL;
+  g_autoptr(GPtrArray) holders = g_ptr_array_new();
+  if (place && spore_document_by_path(document, place))
+    find_holders(spore_object_type(spore_document_root(document)), slash + 1, holders);
+  if (holders->len == 0)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
+                             _("the scene has no object '%s'; expected a path such as bodies/NAME/collision"), path);
+  g_ptr_array_add(holders, NULL);
+  g_autofree char *names = g_strjoinv(", ", (char **)holders->pdata);
+  return spore_error_raise(error, SPORE_ERROR_INPUT, "--set", _("'%s' cannot hold '%s'; what can is: %s; set it there"),
+                           place, slash + 1, names);
+}
+
 gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **error) {
   const char *equals = strchr(setting, '=');
   g_autofree char *path = equals ? g_strndup(setting, (gsize)(equals - setting)) : NULL;
@@ -38,8 +64,7 @@ gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **er
       return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
                                _("the scene has no object '%s'; correct the name, or add it: spore edit --add '%s'"),
                                path, addition);
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
-                             _("the scene has no object '%s'; expected a path such as bodies/NAME/collision"), path);
+    return refuse_path(document, path, error);
   }
   return spore_document_set_text(document, object, slash + 1, equals + 1, error);
 }

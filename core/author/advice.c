@@ -1,4 +1,4 @@
-/* Replays a scene without the physics of each of its bodies. */
+/* Replays a scene without the physics of each of its elements. */
 #include "core/author/advice.h"
 
 #include <glib/gi18n.h>
@@ -33,6 +33,7 @@ typedef struct Search {
   const SporeAdviceOptions *options;
   double dt_s, interval_s;
   guint done, count; /* replays; count: at most */
+  GPtrArray *others; /* SporeObject *: tools and emitters that are advised on */
   SporeAdvice *advice;
 } Search;
 
@@ -168,7 +169,7 @@ static gboolean has_effect(const Search *search, const SporeObject *body, guint3
 }
 
 /* Tries the forms that the body has. */
-static gboolean try_forms(Search *search, const Replay *full, guint32 index, SporeAdviceBody *body, GError **error) {
+static gboolean try_forms(Search *search, const Replay *full, guint32 index, SporeAdviceElement *body, GError **error) {
   const SporeWorld *world = search->simulation->world;
   SporeEvidence *evidence = &body->evidence;
   const char *name = body->name;
@@ -191,8 +192,9 @@ static gboolean try_forms(Search *search, const Replay *full, guint32 index, Spo
 static gboolean find_evidence(Search *search, const Replay *full, gsize followed, GError **error) {
   const SporeWorld *world = search->simulation->world;
   guint32 index = full->points.bodies[followed].body;
-  SporeAdviceBody *body = &search->advice->bodies[followed];
+  SporeAdviceElement *body = &search->advice->elements[followed];
   SporeEvidence *evidence = &body->evidence;
+  body->section = "bodies";
   body->name = g_strdup(spore_world_body_name(world, index));
   SporeObject *object = spore_document_find(search->document, "body", body->name);
   *evidence = search->advice->floor;
@@ -205,6 +207,31 @@ static gboolean find_evidence(Search *search, const Replay *full, gsize followed
   return try_forms(search, full, index, body, error);
 }
 
+/* A tool or an emitter: its effect alone is tried, and all bodies may feel that. */
+static gboolean find_evidence_of(Search *search, const Replay *full, SporeObject *object, SporeAdviceElement *element,
+                                 GError **error) {
+  SporeEvidence *evidence = &element->evidence;
+  const SporeVariation effect = {.effect_section = element->section, .effect = element->name};
+  *evidence = search->advice->floor;
+  evidence->awaited = element->awaited = g_strdup(awaited_of(search, &full->trial, object));
+  evidence->events_floor.held = UINT64_MAX; /* how many spheres it holds is its own affair */
+  element->has_effect = TRUE;
+  return evidence->awaited || try_form(search, full, SPORE_NO_BODY, &effect, SPORE_VERDICT_EFFECT, evidence, error);
+}
+
+/* The tools and emitters that have a form as an effect. */
+static GPtrArray *others_of(SporeDocument *document) {
+  static const char *const sections[] = {"tools", "effects"};
+  GPtrArray *others = g_ptr_array_new();
+  for (gsize k = 0; k < G_N_ELEMENTS(sections); k++) {
+    SporeObject *section = spore_document_section(document, sections[k]);
+    for (guint i = 0; i < spore_object_child_count(section); i++)
+      if (spore_object_type_child(spore_object_type(spore_object_child(section, i)), "fidelity"))
+        g_ptr_array_add(others, spore_object_child(section, i));
+  }
+  return others;
+}
+
 static gboolean find(Search *search, GError **error) {
   SporeAdvice *advice = search->advice;
   const SporeVariation as_it_is = {0};
@@ -213,13 +240,20 @@ static gboolean find(Search *search, GError **error) {
   if (good) {
     advice->floor.step_us = step_us(&full.trial);
     advice->exercise = full.trial.exercise;
-    advice->count = full.points.body_count;
-    advice->bodies = g_new0(SporeAdviceBody, advice->count);
+    advice->count = full.points.body_count + search->others->len;
+    advice->elements = g_new0(SporeAdviceElement, advice->count);
     good = find_floor(search, &full, &advice->floor, error);
   }
-  for (gsize k = 0; good && k < advice->count; k++) good = find_evidence(search, &full, k, error);
+  for (gsize k = 0; good && k < full.points.body_count; k++) good = find_evidence(search, &full, k, error);
+  for (guint i = 0; good && i < search->others->len; i++) {
+    SporeObject *other = search->others->pdata[i];
+    SporeAdviceElement *element = &advice->elements[full.points.body_count + i];
+    element->section = spore_object_type(spore_object_parent(other))->element;
+    element->name = g_strdup(spore_object_name(other));
+    good = find_evidence_of(search, &full, other, element, error);
+  }
   for (gsize k = 0; good && k < advice->count; k++) {
-    SporeAdviceBody *body = &advice->bodies[k];
+    SporeAdviceElement *body = &advice->elements[k];
     body->verdict = spore_evidence_verdict(&body->evidence);
     body->reason = spore_advice_reason(body, &advice->exercise, search->simulation);
   }
@@ -252,10 +286,13 @@ SporeAdvice *spore_advice_find(SporeDocument *document, const SporeSimulation *s
                       : usual_time(options->input ? options->input : simulation->track, simulation->exercise != NULL);
   search.dt_s = spore_object_number(spore_document_section(document, "solver"), "time_step");
   search.interval_s = search.dt_s * fmax(1, round(time_s / SAMPLES / search.dt_s));
-  search.count = 2 + PERTURBED + 2 * passive;
+  search.others = others_of(document);
+  search.count = 2 + PERTURBED + 2 * passive + search.others->len;
   search.advice = g_new0(SporeAdvice, 1);
   search.advice->time_s = SAMPLES * search.interval_s;
-  if (find(&search, error)) return search.advice;
+  gboolean found = find(&search, error);
+  g_ptr_array_unref(search.others);
+  if (found) return search.advice;
   spore_advice_free(search.advice);
   return NULL;
 }
@@ -263,23 +300,28 @@ SporeAdvice *spore_advice_find(SporeDocument *document, const SporeSimulation *s
 void spore_advice_free(SporeAdvice *advice) {
   if (!advice) return;
   for (gsize k = 0; k < advice->count; k++) {
-    g_free(advice->bodies[k].name);
-    g_free(advice->bodies[k].held);
-    g_free(advice->bodies[k].awaited);
-    g_free(advice->bodies[k].reason);
+    g_free(advice->elements[k].name);
+    g_free(advice->elements[k].held);
+    g_free(advice->elements[k].awaited);
+    g_free(advice->elements[k].reason);
   }
-  g_free(advice->bodies);
+  g_free(advice->elements);
   g_free(advice);
 }
 
 /* What is to be done with it. */
 
-static gboolean is_effect(const SporeAdviceBody *body) {
+static SporeObject *object_of(const SporeAdviceElement *element, SporeDocument *document) {
+  g_autofree char *path = g_strdup_printf("%s/%s", element->section, element->name);
+  return spore_document_by_path(document, path);
+}
+
+static gboolean is_effect(const SporeAdviceElement *body) {
   return body->verdict == SPORE_VERDICT_EFFECT && body->has_effect;
 }
 
 /* What is an effect now, or was advised on before, takes the verdict. */
-static gboolean takes_verdict(const SporeAdviceBody *body, const SporeObject *object) {
+static gboolean takes_verdict(const SporeAdviceElement *body, const SporeObject *object) {
   const SporeObject *fidelity = spore_object_child_of(object, "fidelity");
   return is_effect(body) || (fidelity && (int)spore_object_number(fidelity, "mode") != SPORE_FIDELITY_PHYSICAL);
 }
@@ -287,7 +329,7 @@ static gboolean takes_verdict(const SporeAdviceBody *body, const SporeObject *ob
 guint spore_advice_count(const SporeAdvice *advice, SporeDocument *document) {
   guint count = 0;
   for (gsize k = 0; k < advice->count; k++)
-    count += takes_verdict(&advice->bodies[k], spore_document_find(document, "body", advice->bodies[k].name));
+    count += takes_verdict(&advice->elements[k], object_of(&advice->elements[k], document));
   return count;
 }
 
@@ -295,9 +337,9 @@ gboolean spore_advice_apply(const SporeAdvice *advice, SporeDocument *document, 
   gboolean good = TRUE;
   spore_document_begin(document, _("What was advised"));
   for (gsize k = 0; good && k < advice->count; k++) {
-    SporeObject *object = spore_document_find(document, "body", advice->bodies[k].name);
-    if (takes_verdict(&advice->bodies[k], object))
-      good = spore_fidelity_advise(document, object, is_effect(&advice->bodies[k]), error);
+    SporeObject *object = object_of(&advice->elements[k], document);
+    if (takes_verdict(&advice->elements[k], object))
+      good = spore_fidelity_advise(document, object, is_effect(&advice->elements[k]), error);
   }
   return spore_edit_finish(document, good);
 }

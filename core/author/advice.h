@@ -1,4 +1,5 @@
-/* Physical or effect: each body that physics moves is replayed in cheaper forms, and what the others do then is
+/* Physical or effect: each body that physics moves, and each tool and emitter that has a form as an effect, is replayed
+ * in cheaper forms, and what the others do then is
  * compared with what they do when the step is halved or the start is a little off. Where the scene has an exercise, its
  * steps and its score are compared, too. The advice holds for the input that was replayed. */
 #ifndef SPORE_AUTHOR_ADVICE_H
@@ -16,22 +17,23 @@ typedef struct SporeAdviceOptions {
   const SporeProgress *progress; /* NULL: none */
 } SporeAdviceOptions;
 
-/* A body that physics moves in the replays. */
-typedef struct SporeAdviceBody {
+/* A body that physics moves in the replays, or a tool or an emitter that has a form as an effect. */
+typedef struct SporeAdviceElement {
+  const char *section; /* "bodies", "tools", "effects" */
   char *name;
   char *held, *awaited;   /* the names of the evidence; NULL: none */
   SporeEvidence evidence; /* by the time of a replay's step */
   SporeVerdict verdict;
   gboolean has_effect; /* it was replayed as the effect that the kernel has for it */
   char *reason;        /* of the verdict, translated */
-} SporeAdviceBody;
+} SporeAdviceElement;
 
 typedef struct SporeAdvice {
   gsize count;
-  SporeAdviceBody *bodies;     /* in the world's order */
-  SporeEvidence floor;         /* what cannot be told from noise, and the time of a step of the scene as it is */
-  SporeExerciseState exercise; /* at the end of the replay of the scene as it is; steps 0: there is none */
-  double time_s;               /* simulated, of each replay */
+  SporeAdviceElement *elements; /* bodies in the world's order, then tools and emitters */
+  SporeEvidence floor;          /* what cannot be told from noise, and the time of a step of the scene as it is */
+  SporeExerciseState exercise;  /* at the end of the replay of the scene as it is; steps 0: there is none */
+  double time_s;                /* simulated, of each replay */
 } SporeAdvice;
 
 /* simulation: of the document with that input, at time 0; only looked at. NULL with a GError: nothing moves by physics,
@@ -41,9 +43,9 @@ SporeAdvice *spore_advice_find(SporeDocument *document, const SporeSimulation *s
 void spore_advice_free(SporeAdvice *advice); /* NULL is allowed */
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeAdvice, spore_advice_free)
 
-/* What may be changed, translated; NULL: nothing, the body stays physical. *saved_us: of a step; may be NULL. */
-const char *spore_advice_change(const SporeAdviceBody *body, double *saved_us);
-/* How many bodies of the document would take their verdict: those that have an effect and may be one, and those that
+/* What may be changed, translated; NULL: nothing, it stays physical. *saved_us: of a step; may be NULL. */
+const char *spore_advice_change(const SporeAdviceElement *element, double *saved_us);
+/* How many elements of the document would take their verdict: those that have an effect and may be one, and those that
  * are no longer to be one. */
 guint spore_advice_count(const SporeAdvice *advice, SporeDocument *document);
 /* Gives them their verdicts, as one step of undo. */

@@ -4,8 +4,8 @@
 
 #include "core/author/advice.h"
 
-/* Why the body has its verdict, translated; g_free. simulation: for the names of bodies and steps. */
-char *spore_advice_reason(const SporeAdviceBody *body, const SporeExerciseState *exercise,
+/* Why the element has its verdict, translated; g_free. simulation: for the names of bodies and steps. */
+char *spore_advice_reason(const SporeAdviceElement *element, const SporeExerciseState *exercise,
                           const SporeSimulation *simulation);
 
 #endif

@@ -197,7 +197,8 @@ TABLE(static, link, SporeLinkDescription, LINK)
 #define TOOL(X, T)                                                                                                     \
   X(T, type, TYPE, .types = &tool_types)                                                                               \
   X(T, bodies, BODIES, .repeat = SPORE_TOOL_BODIES)                                                                    \
-  X(T, fields, TYPE_FIELDS, .types = &tool_types)
+  X(T, fields, TYPE_FIELDS, .types = &tool_types)                                                                      \
+  X(T, effect, OPTION)
 TABLE(static, tool, SporeToolDescription, TOOL)
 
 #define EMITTER(X, T)                                                                                                  \
@@ -206,7 +207,8 @@ TABLE(static, tool, SporeToolDescription, TOOL)
   X(T, source, BODY)                                                                                                   \
   X(T, point, REALS, DOUBLES(SporeVec3))                                                                               \
   X(T, direction, REALS, DOUBLES(SporeVec3))                                                                           \
-  X(T, fields, FIELDS, .parameters = &spore_emitter_parameters)
+  X(T, fields, FIELDS, .parameters = &spore_emitter_parameters)                                                        \
+  X(T, effect, OPTION)
 TABLE(static, emitter, SporeEmitterDescription, EMITTER)
 
 #define EYE(X, T)                                                                                                      \

@@ -37,5 +37,6 @@ bool spore_runtime_vertices(SporeRuntime *runtime, size_t i, const SporeSnapshot
   const SporeMapping *mapping = mapping_at(runtime, i, level, snapshot, error);
   if (!mapping) return false;
   spore_mapping_positions(mapping, snapshot->q + spore_world_q_offset(runtime->world, visual->body), vertices);
+  spore_squeeze_points(snapshot->squeezes, snapshot->squeeze_count, visual->body, vertices, visual->mesh->vertex_count);
   return true;
 }

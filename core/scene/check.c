@@ -75,17 +75,24 @@ static const SporeObject *holder_of(SporeCheck *check, const SporeObject *body) 
   return NULL;
 }
 
-static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role) {
-  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *holder = holder_of(check, body);
+/* Notes advice that is missing or does not hold any more. What the fidelity comes to. */
+static SporeFidelityState check_advice(SporeCheck *check, const SporeObject *holder) {
+  const SporeObject *fidelity = spore_object_child_of(holder, "fidelity");
   SporeFidelityState state = spore_fidelity_state(check->document, fidelity);
-  const char *name = spore_object_name(body);
+  const char *name = spore_object_name(holder);
   if (state == SPORE_FIDELITY_NOT_ADVISED)
     spore_check_say(check, SPORE_NOTE, fidelity, _("ask spore advise, with --apply"),
                     _("\"%s\" is to be what was advised, and nothing was: it is physical"), name);
   if (state == SPORE_FIDELITY_OUTDATED)
     spore_check_say(check, SPORE_NOTE, fidelity, _("ask spore advise again, with --apply"),
                     _("\"%s\" was advised on before the scene changed: it is physical"), name);
-  if (state != SPORE_FIDELITY_IS_EFFECT) return;
+  return state;
+}
+
+static void check_fidelity(SporeCheck *check, SporeObject *body, SporeRole role) {
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *holder = holder_of(check, body);
+  const char *name = spore_object_name(body);
+  if (check_advice(check, body) != SPORE_FIDELITY_IS_EFFECT) return;
   if (role != SPORE_PASSIVE)
     spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, or the role passive"),
                     _("\"%s\" is to be an effect, and physics does not move it anyway"), name);
@@ -145,6 +152,7 @@ static void check_jaw(SporeCheck *check, SporeObject *tool, const char *property
 static void check_tool(SporeCheck *check, SporeObject *tool) {
   const char *name = spore_object_name(tool), *element = spore_object_type(tool)->element;
   if (!has_device(tool)) return;
+  check_advice(check, tool);
   gboolean probe = strcmp(element, "probe") == 0; /* every other tool needs a body */
   if (!spore_object_text(tool, "body"))
     spore_check_say(check, probe ? SPORE_WARNING : SPORE_FAULT, tool, _("name an active body"),
@@ -162,10 +170,26 @@ static void check_tool(SporeCheck *check, SporeObject *tool) {
 
 /* Effects. */
 
+/* An emitter that is an effect is seen by what it stains. */
+static void check_seeping(SporeCheck *check, SporeObject *emitter) {
+  const SporeObject *fidelity = spore_object_child_of(emitter, "fidelity"),
+                    *fluid = spore_object_reference(emitter, "body");
+  const SporeObject *model = fluid ? spore_body_model_object(fluid) : NULL;
+  if (check_advice(check, emitter) != SPORE_FIDELITY_IS_EFFECT || !model) return;
+  int stain = spore_parameter_find(spore_object_type(model)->table, "stain");
+  gboolean stains = stain >= 0 && spore_object_number(model, "stain") > 0 && spore_object_text(emitter, "source");
+  if (stains) return;
+  spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, and the fluid an effect if that is enough"),
+                  _("nothing is seen of \"%s\" as an effect: it has no source to stain, or its fluid stains nothing"),
+                  spore_object_name(emitter));
+  spore_check_offer_set(check, fidelity, "mode", "physical");
+}
+
 static void check_emitter(SporeCheck *check, SporeObject *emitter) {
   if (!spore_object_text(emitter, "body"))
     spore_check_say(check, SPORE_FAULT, emitter, _("name a fluid of particles, or remove the emitter"),
                     _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
+  check_seeping(check, emitter);
 }
 
 /* The model by which physics moves the body; NULL: physics does not move it. */

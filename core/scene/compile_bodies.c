@@ -335,8 +335,7 @@ gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
   if (!add_collision(compiler, body, &description)) return FALSE;
   if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description, &recipes[SPORE_LOD_FINE]))
     return FALSE;
-  description.effect =
-      spore_fidelity_state(compiler->document, spore_object_child_of(body, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
+  description.effect = spore_fidelity_is_effect(compiler->document, body);
   gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description, recipes) &&
                    find_start(compiler, body, &description);
   g_ptr_array_add(compiler->objects, body);

@@ -3,6 +3,7 @@
 
 #include "core/scene/camera_sight.h"
 #include "core/scene/compile_private.h"
+#include "core/scene/fidelity.h"
 
 /* The bodies that the type's parameters refer to, in their order. */
 static gboolean find_bodies(SporeCompiler *compiler, const SporeObject *object, SporeToolDescription *tool) {
@@ -39,6 +40,7 @@ gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *obj
   gpointer fields = spore_compiler_keep(compiler, tool.type->parameters.size);
   spore_object_fields(object, fields);
   tool.fields = fields;
+  tool.effect = spore_fidelity_is_effect(compiler->document, object);
   if (!find_bodies(compiler, object, &tool)) return FALSE;
   g_array_append_val(compiler->tools, tool);
   return TRUE;
@@ -50,7 +52,8 @@ gboolean spore_compiler_add_emitter(SporeCompiler *compiler, const SporeObject *
   SporeEmitterDescription emitter = {.name = fields.name,
                                      .point = spore_vec3_load(fields.point),
                                      .direction = spore_vec3_load(fields.direction),
-                                     .fields = fields.emitter};
+                                     .fields = fields.emitter,
+                                     .effect = spore_fidelity_is_effect(compiler->document, object)};
   if (!spore_compiler_body_index(compiler, object, "body", &emitter.body) ||
       !spore_compiler_body_index(compiler, object, "source", &emitter.source))
     return FALSE;

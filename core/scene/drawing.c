@@ -144,6 +144,8 @@ static void place_points(SporeDrawnPart *part, const SporeSnapshot *snapshot, co
   make_room(part, nodes.point_count);
   spore_mapping_positions(&nodes, q, part->positions);
   spore_mapping_velocities(&nodes, q, v, part->velocities);
+  if (part->shows)
+    spore_squeeze_points(snapshot->squeezes, snapshot->squeeze_count, part->body, part->positions, part->count);
 }
 
 /* Keeps particles that are in the world. */

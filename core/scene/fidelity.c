@@ -1,4 +1,4 @@
-/* What the scene says of a body that may be physical or an effect. */
+/* What the scene says of what may be physical or an effect. */
 #include "core/scene/fidelity.h"
 
 #include "core/scene/run_hash.h"
@@ -20,27 +20,43 @@ SporeFidelityState spore_fidelity_state(SporeDocument *document, const SporeObje
   return fields.advice == SPORE_FIDELITY_EFFECT ? SPORE_FIDELITY_IS_EFFECT : SPORE_FIDELITY_IS_PHYSICAL;
 }
 
-gboolean spore_fidelity_set_mode(SporeDocument *document, SporeObject *body, const char *mode, GError **error) {
-  SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  if (!fidelity) fidelity = spore_document_insert(document, body, "fidelity", NULL, G_MAXUINT, error);
+GPtrArray *spore_fidelity_holders(SporeDocument *document) {
+  static const char *const sections[] = {"bodies", "tools", "effects"};
+  GPtrArray *holders = g_ptr_array_new();
+  for (gsize k = 0; k < G_N_ELEMENTS(sections); k++) {
+    SporeObject *section = spore_document_section(document, sections[k]);
+    for (guint i = 0; i < spore_object_child_count(section); i++)
+      if (spore_object_child_of(spore_object_child(section, i), "fidelity"))
+        g_ptr_array_add(holders, spore_object_child(section, i));
+  }
+  return holders;
+}
+
+gboolean spore_fidelity_is_effect(SporeDocument *document, const SporeObject *holder) {
+  return spore_fidelity_state(document, spore_object_child_of(holder, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
+}
+
+gboolean spore_fidelity_set_mode(SporeDocument *document, SporeObject *holder, const char *mode, GError **error) {
+  SporeObject *fidelity = spore_object_child_of(holder, "fidelity");
+  if (!fidelity) fidelity = spore_document_insert(document, holder, "fidelity", NULL, G_MAXUINT, error);
   return fidelity && spore_document_set_text(document, fidelity, "mode", mode, error);
 }
 
-gboolean spore_fidelity_advise(SporeDocument *document, SporeObject *body, gboolean effect, GError **error) {
-  if (!spore_fidelity_set_mode(document, body, "auto", error)) return FALSE;
-  SporeObject *fidelity = spore_object_child_of(body, "fidelity");
+gboolean spore_fidelity_advise(SporeDocument *document, SporeObject *holder, gboolean effect, GError **error) {
+  if (!spore_fidelity_set_mode(document, holder, "auto", error)) return FALSE;
+  SporeObject *fidelity = spore_object_child_of(holder, "fidelity");
   g_autofree char *hash = hash_of(document);
   return spore_document_set_text(document, fidelity, "advice", effect ? "effect" : "physical", error) &&
          spore_document_set_text(document, fidelity, "advice_hash", hash, error);
 }
 
 gboolean spore_fidelity_resolve(SporeDocument *document, GError **error) {
-  SporeObject *bodies = spore_document_section(document, "bodies");
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    SporeObject *body = spore_object_child(bodies, i), *fidelity = spore_object_child_of(body, "fidelity");
-    if (!fidelity || (int)spore_object_number(fidelity, "mode") != SPORE_FIDELITY_AUTO) continue;
-    gboolean effect = spore_fidelity_state(document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
-    if (!spore_fidelity_set_mode(document, body, effect ? "effect" : "physical", error)) return FALSE;
+  g_autoptr(GPtrArray) holders = spore_fidelity_holders(document);
+  for (guint i = 0; i < holders->len; i++) {
+    SporeObject *holder = holders->pdata[i];
+    if ((int)spore_object_number(spore_object_child_of(holder, "fidelity"), "mode") != SPORE_FIDELITY_AUTO) continue;
+    gboolean effect = spore_fidelity_is_effect(document, holder);
+    if (!spore_fidelity_set_mode(document, holder, effect ? "effect" : "physical", error)) return FALSE;
   }
   return TRUE;
 }

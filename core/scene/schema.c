@@ -18,7 +18,7 @@ typedef struct SchemaType {
 struct SporeSchema {
   SporeModelRegistry registry;
   GPtrArray *types;         /* SchemaType *, root first */
-  GHashTable *by_element;   /* element -> SchemaType * */
+  GHashTable *by_key;       /* element, or what tells it from others of that name -> SchemaType * */
   const char **integrators; /* "scene", then spore_integrator_names */
 };
 
@@ -31,13 +31,15 @@ static void free_type(gpointer data) {
   g_free(entry);
 }
 
-static SchemaType *add_type(SporeSchema *schema, const char *element, const char *label, const char *doc) {
+static SchemaType *add_type(SporeSchema *schema, const char *element, const char *key, const char *label,
+                            const char *doc) {
   SchemaType *entry = g_new0(SchemaType, 1);
   entry->type.element = element, entry->type.label = label, entry->type.doc = doc;
   entry->type.children = g_ptr_array_new();
   entry->type.table = &entry->table;
   g_ptr_array_add(schema->types, entry);
-  gboolean is_new = g_hash_table_insert(schema->by_element, (gpointer)element, entry);
+  entry->type.key = key ? key : element;
+  gboolean is_new = g_hash_table_insert(schema->by_key, (gpointer)entry->type.key, entry);
   g_assert(is_new);
   return entry;
 }
@@ -52,7 +54,7 @@ static void finish_table(SchemaType *entry, const SporeParameter *parameters, si
 
 /* An element's own parameters, then those of the kernel's table that it takes over. */
 static void add_element(SporeSchema *schema, const SporeElement *element) {
-  SchemaType *entry = add_type(schema, element->element, element->label, element->doc);
+  SchemaType *entry = add_type(schema, element->element, element->key, element->label, element->doc);
   entry->type.ordered = element->ordered, entry->type.single_child = element->single_child;
   size_t extra = element->extra ? element->extra->count : 0;
   entry->parameters = g_new0(SporeParameter, element->count + extra);
@@ -72,9 +74,9 @@ static void add_element(SporeSchema *schema, const SporeElement *element) {
 /* An element of a kind that a registry lists, as a child of `parent`. */
 static SchemaType *add_kind(SporeSchema *schema, const char *parent, const char *element, const char *label,
                             const char *doc, const SporeParameterTable *table) {
-  SchemaType *entry = add_type(schema, element, label, doc);
+  SchemaType *entry = add_type(schema, element, NULL, label, doc);
   finish_table(entry, table->parameters, table->count, table->size);
-  SchemaType *above = g_hash_table_lookup(schema->by_element, parent);
+  SchemaType *above = g_hash_table_lookup(schema->by_key, parent);
   g_ptr_array_add(above->type.children, &entry->type);
   return entry;
 }
@@ -87,8 +89,12 @@ static void add_link(SporeSchema *schema, const SporeLinkType *link) {
   add_kind(schema, "links", link->element, link->label, link->doc, &link->parameters);
 }
 
+/* What a tool that is also an effect says of that, by the tool's own table. */
 static void add_tool(SporeSchema *schema, const SporeToolType *tool) {
-  add_kind(schema, "tools", tool->element, tool->label, tool->doc, &tool->parameters);
+  SchemaType *entry = add_kind(schema, "tools", tool->element, tool->label, tool->doc, &tool->parameters);
+  g_autofree char *key = g_strdup_printf("%s/fidelity", tool->element);
+  entry->type.ordered = TRUE; /* at most one of each child */
+  if (tool->set_effect) g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, key));
 }
 
 static void add_step(SporeSchema *schema, const SporeEventKind *step) {
@@ -109,7 +115,7 @@ static const char **integrator_choices(void) {
 }
 
 static void add_children(SporeSchema *schema, const SporeElement *element) {
-  SchemaType *entry = g_hash_table_lookup(schema->by_element, element->element);
+  SchemaType *entry = g_hash_table_lookup(schema->by_key, element->key ? element->key : element->element);
   for (const char *const *child = element->children; child && *child; child++)
     g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, *child));
 }
@@ -128,17 +134,17 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *c
   SporeSchema *schema = g_new0(SporeSchema, 1);
   schema->registry = registry;
   schema->types = g_ptr_array_new_with_free_func(free_type);
-  schema->by_element = g_hash_table_new(g_str_hash, g_str_equal);
+  schema->by_key = g_hash_table_new(g_str_hash, g_str_equal);
   schema->integrators = integrator_choices();
   for (gsize p = 0; p < G_N_ELEMENTS(parts); p++) add_elements(schema, parts[p]);
   for (gsize p = 0; assets[p]; p++) add_elements(schema, assets[p]);
   for (gsize p = 0; p < G_N_ELEMENTS(parts); p++) add_all_children(schema, parts[p]);
-  SchemaType *holder = g_hash_table_lookup(schema->by_element, "assets");
+  SchemaType *holder = g_hash_table_lookup(schema->by_key, "assets");
   for (gsize p = 0; assets[p]; p++) {
     add_all_children(schema, assets[p]);
     g_ptr_array_add(holder->type.children, (gpointer)spore_schema_find(schema, assets[p]->element));
   }
-  ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
+  ((SchemaType *)g_hash_table_lookup(schema->by_key, "collision"))->type.defaults = "contact";
   for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model);
   for (const SporeLinkType *const *link = spore_link_types; *link; link++) add_link(schema, *link);
   for (const SporeToolType *const *tool = spore_tool_types; *tool; tool++) add_tool(schema, *tool);
@@ -149,7 +155,7 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *c
 
 void spore_schema_free(SporeSchema *schema) {
   if (!schema) return;
-  g_hash_table_unref(schema->by_element);
+  g_hash_table_unref(schema->by_key);
   g_ptr_array_unref(schema->types);
   g_free(schema->integrators);
   g_free(schema);
@@ -161,8 +167,8 @@ const SporeObjectType *spore_schema_root(const SporeSchema *schema) {
   return &((const SchemaType *)g_ptr_array_index(schema->types, 0))->type;
 }
 
-const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *element) {
-  const SchemaType *entry = g_hash_table_lookup(schema->by_element, element);
+const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *key) {
+  const SchemaType *entry = g_hash_table_lookup(schema->by_key, key);
   return entry ? &entry->type : NULL;
 }
 

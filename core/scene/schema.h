@@ -33,9 +33,10 @@ bool spore_format_version_check(const char *version, SporeError *error);
  * density_scale material) > dab(centre radius), which sphere_region and cell_region hold, too; collision(spheres +
  * spore_contact_parameters) visual(mesh colour wetness opacity texture texture_places) fidelity(mode level automatic
  * ...) > coarse(geometry settings) medium(geometry settings) links  > pin(name body point radius) | spring(name body_a
- * body_b point_a point_b stiffness damping rest_length) effects tools > probe(name body device) | camera(name position
- * target field_of_view) camera(name position target field_of_view) devices > mouse(name) | track(name file)
- * exercise(task time_limit order) > steps (core/exercise/event.h) and metrics (core/exercise/metric.h), in any order
+ * body_b point_a point_b stiffness damping rest_length) effects > emitter(name body ...) > fidelity(mode advice
+ * advice_hash) tools > probe(name body device) | camera(name position target field_of_view) | each kind of tool, of
+ * which a clamp holds fidelity, too devices > mouse(name) | track(name file) exercise(task time_limit order) > steps
+ * (core/exercise/event.h) and metrics (core/exercise/metric.h), in any order
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).
@@ -45,6 +46,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
 typedef struct SporeObjectType SporeObjectType;
 struct SporeObjectType {
   const char *element;              /* "body" */
+  const char *key;                  /* the same; where elements of one name differ by parent, "clamp/fidelity" */
   const char *label, *doc;          /* translatable */
   const SporeParameterTable *table; /* properties, possibly empty; one of type SPORE_NAME makes it nameable */
   GPtrArray *children;              /* of const SporeObjectType *, in file order where `ordered` */
@@ -63,7 +65,8 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *c
 void spore_schema_free(SporeSchema *schema);
 SporeModelRegistry spore_schema_registry(const SporeSchema *schema);
 const SporeObjectType *spore_schema_root(const SporeSchema *schema); /* element "spore" */
-const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *element);
+/* By its key. NULL: there is none. */
+const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *key);
 /* The child type of that element allowed in `parent`, or NULL. */
 const SporeObjectType *spore_object_type_child(const SporeObjectType *parent, const char *element);
 

@@ -3,8 +3,7 @@
 #include "core/body/tissue.h"
 
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
-static const char *const fidelities[] = {"physical", "effect", "auto", NULL};
-static const char *const advices[] = {"physical", "effect", NULL};
+const char *const spore_fidelities[] = {"physical", "effect", "auto", NULL};
 
 static const SporeParameter body_parameters[] = {
     NAME(SporeBodyFields, N_("Name by which links and tools refer to the body.")),
@@ -256,7 +255,7 @@ static const SporeParameter fidelity_parameters[] = {
      .unit = "",
      ANY,
      .initial = {SPORE_FIDELITY_PHYSICAL},
-     .choices = fidelities,
+     .choices = spore_fidelities,
      FIELD(SporeFidelityFields, mode),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("What moves the body. physical: its model. effect: a formula that costs next to nothing and that other "
@@ -265,21 +264,9 @@ static const SporeParameter fidelity_parameters[] = {
                "with jaws that hold it, a rigid body stands still. auto: what was advised, as long as that holds for "
                "the scene. It may change "
                "while it runs.")},
-    {.name = "advice",
-     .type = SPORE_CHOICE,
-     .unit = "",
-     ANY,
-     .initial = {SPORE_FIDELITY_PHYSICAL},
-     .choices = advices,
-     FIELD(SporeFidelityFields, advice),
-     .change = SPORE_CHANGE_LIVE,
-     .doc = N_("What spore advise found for the body, for mode auto.")},
-    {.name = "advice_hash",
-     .type = SPORE_TEXT,
-     .unit = "",
-     FIELD(SporeFidelityFields, advice_hash),
-     .change = SPORE_CHANGE_LIVE,
-     .doc = N_("What the advice was found for, as a number; where the scene has changed since, the body is physical.")},
+    SPORE_ADVICE_ROWS(N_("What spore advise found for the body, for mode auto."),
+                      N_("What the advice was found for, as a number; where the scene has changed since, the body is "
+                         "physical.")),
     {.name = "level",
      .type = SPORE_CHOICE,
      .unit = "",

@@ -68,14 +68,15 @@ typedef struct SporeVisualFields {
   double colour[3], wetness, opacity;
 } SporeVisualFields;
 
-typedef struct SporeFidelityFields {
-  int mode, advice;                    /* SporeFidelity; the advice is physical or effect */
-  const char *advice_hash;             /* of what was advised on; NULL: there is no advice */
-  int level;                           /* SporeLodGrade */
-  double level_tolerance;              /* m */
-  int automatic;                       /* SporeLodCause */
-  double tool_distance, view_distance; /* m */
-  double level_wait;                   /* s */
+extern const char *const spore_fidelities[]; /* in the order of SporeFidelity; NULL at the end */
+typedef struct SporeFidelityFields {         /* of a tool or an effect: the mode and the advice alone */
+  int mode, advice;                          /* SporeFidelity; the advice is physical or effect */
+  const char *advice_hash;                   /* of what was advised on; NULL: there is no advice */
+  int level;                                 /* SporeLodGrade */
+  double level_tolerance;                    /* m */
+  int automatic;                             /* SporeLodCause */
+  double tool_distance, view_distance;       /* m */
+  double level_wait;                         /* s */
 } SporeFidelityFields;
 
 typedef struct SporeLodFields {
@@ -120,6 +121,7 @@ struct SporeElement {
   gboolean ordered, single_child;
   const SporeParameterTable *extra; /* a kernel table appended to the parameters, or NULL */
   size_t extra_offset;              /* of its structure in this one */
+  const char *key; /* by which `children` name it, where another element has its name; NULL: its name */
 };
 
 #endif

@@ -87,23 +87,26 @@ static void append_attribute(GString *text, const SporeObjectType *type, const S
   if (!parameter->required) g_string_append(text, "    </optional>\n");
 }
 
+/* A name of XML: no key begins so that two become one. */
+static char *define_of(const SporeObjectType *type) { return g_strdelimit(g_strdup(type->key), "/", '.'); }
+
 static void append_children(GString *text, const SporeObjectType *type) {
   if (type->children->len == 0) return;
   const char *around = type->ordered ? "group" : type->single_child ? "optional" : "zeroOrMore";
   g_string_append_printf(text, "    <%s>%s", around, type->ordered ? "" : "<choice>");
   for (guint i = 0; i < type->children->len; i++) {
-    const SporeObjectType *child = g_ptr_array_index(type->children, i);
+    g_autofree char *define = define_of(g_ptr_array_index(type->children, i));
     g_string_append_printf(text, type->ordered ? "<optional><ref name=\"%s\"/></optional>" : "<ref name=\"%s\"/>",
-                           child->element);
+                           define);
   }
   g_string_append_printf(text, "%s</%s>\n", type->ordered ? "" : "</choice>", around);
 }
 
 static void append_element(GString *text, const SporeObjectType *type) {
-  g_autofree char *doc = g_markup_escape_text(type->doc ? type->doc : "", -1);
+  g_autofree char *doc = g_markup_escape_text(type->doc ? type->doc : "", -1), *define = define_of(type);
   g_string_append_printf(text,
                          "  <define name=\"%s\"><element name=\"%s\">\n    <a:documentation>%s</a:documentation>\n",
-                         type->element, type->element, doc);
+                         define, type->element, doc);
   if (type->table->count == 0 && type->children->len == 0) g_string_append(text, "    <empty/>\n");
   for (size_t i = 0; i < type->table->count; i++) append_attribute(text, type, &type->table->parameters[i]);
   append_children(text, type);

@@ -43,6 +43,23 @@
     .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
   }
 
+/* The rows by which an element that has two forms remembers what was advised. */
+#define SPORE_ADVICES ((const char *const[]){"physical", "effect", NULL})
+#define SPORE_ADVICE_ROWS(advice_doc, hash_doc)                                                                        \
+  {.name = "advice",                                                                                                   \
+   .type = SPORE_CHOICE,                                                                                               \
+   .unit = "",                                                                                                         \
+   ANY,                                                                                                                \
+   .initial = {SPORE_FIDELITY_PHYSICAL},                                                                               \
+   .choices = SPORE_ADVICES,                                                                                           \
+   FIELD(SporeFidelityFields, advice),                                                                                 \
+   .change = SPORE_CHANGE_LIVE,                                                                                        \
+   .doc = advice_doc},                                                                                                 \
+  {                                                                                                                    \
+    .name = "advice_hash", .type = SPORE_TEXT, .unit = "", FIELD(SporeFidelityFields, advice_hash),                    \
+    .change = SPORE_CHANGE_LIVE, .doc = hash_doc                                                                       \
+  }
+
 /* The rows of a ball in which a generator has a setting of its own. */
 #define BALL(Type)                                                                                                     \
   NAME(Type, N_("Name of the region.")),                                                                               \

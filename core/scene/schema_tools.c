@@ -119,11 +119,40 @@ static const SporeParameter track_parameters[] = {
                "buttons; # begins a comment.")},
 };
 
+#define MODE(text)                                                                                                     \
+  {                                                                                                                    \
+    .name = "mode", .type = SPORE_CHOICE, .unit = "", ANY, .initial = {SPORE_FIDELITY_PHYSICAL},                       \
+    .choices = spore_fidelities, FIELD(SporeFidelityFields, mode), .change = SPORE_CHANGE_LIVE, .doc = text            \
+  }
+#define ADVICE                                                                                                         \
+  SPORE_ADVICE_ROWS(N_("What spore advise found for it, for mode auto."),                                              \
+                    N_("What the advice was found for, as a number; where the scene has changed since, it is "         \
+                       "physical."))
+
+static const SporeParameter clip_parameters[] = {
+    MODE(N_("What the clamp does. physical: it presses tissue, and holds it by the spheres that it presses. effect: a "
+            "clip that is put on: nothing feels it, it goes along with what it closed on until it is opened, and the "
+            "tissue between its jaws is drawn squeezed; wounds beside it stop as they do otherwise. auto: what was "
+            "advised, as long as that holds for the scene. It may change while it runs.")),
+    ADVICE,
+};
+
+static const SporeParameter seep_parameters[] = {
+    MODE(N_("What comes out. physical: the particles of its fluid. effect: no particle; what would have come out is "
+            "counted, and stains what the mouth is in around it, as far as it would run over that as a film of half a "
+            "millimetre. auto: what was advised, as long as that holds for the scene. It may change while it runs.")),
+    ADVICE,
+};
+
 const SporeElement spore_tool_elements[] = {
     {"effects", N_("Effects"), N_("What goes on besides what bodies do."), .children = CHILDREN("emitter")},
     {"emitter", N_("Emitter"), N_("A mouth that particles of a fluid come out of: a wound that bleeds."),
      TABLE(emitter_parameters, SporeWoundFields), .extra = &spore_emitter_parameters,
-     .extra_offset = offsetof(SporeWoundFields, emitter)},
+     .extra_offset = offsetof(SporeWoundFields, emitter), .ordered = TRUE, .children = CHILDREN("emitter/fidelity")},
+    {"fidelity", N_("Fidelity"), N_("Whether particles come out, or an effect stands for them."),
+     TABLE(seep_parameters, SporeFidelityFields), .key = "emitter/fidelity"},
+    {"fidelity", N_("Fidelity"), N_("Whether the clamp is simulated, or an effect."),
+     TABLE(clip_parameters, SporeFidelityFields), .key = "clamp/fidelity"},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."), .children = CHILDREN("probe", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},

@@ -101,11 +101,32 @@ static gboolean post_level(SporeSimulation *simulation, const SporeObject *fidel
   return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
 }
 
+/* The number of the tool in the world; -1: it has none. */
+static double tool_of(const SporeWorld *world, const SporeObject *tool) {
+  for (size_t i = 0; i < spore_world_tool_count(world); i++)
+    if (g_strcmp0(spore_world_tool_state(world, i).name, spore_object_name(tool)) == 0) return (double)i;
+  return -1;
+}
+
+/* The number of an emitter is its place among them. */
+static double emitter_of(const SporeObject *emitter) {
+  const SporeObject *section = spore_object_parent(emitter);
+  for (guint i = 0; i < spore_object_child_count(section); i++)
+    if (spore_object_child(section, i) == emitter) return i;
+  return -1;
+}
+
 static gboolean post_effect(SporeSimulation *simulation, SporeDocument *document, SporeObject *fidelity) {
+  SporeObject *holder = spore_object_parent(fidelity);
+  const char *section = spore_object_type(spore_object_parent(holder))->element;
   SporeCommand command = {.kind = SPORE_COMMAND_EFFECT,
                           .body = spore_simulation_body_of(simulation, fidelity),
-                          .effect = spore_fidelity_state(document, fidelity) == SPORE_FIDELITY_IS_EFFECT};
-  return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
+                          .effect = spore_fidelity_is_effect(document, holder)};
+  if (strcmp(section, "tools") == 0)
+    command.kind = SPORE_COMMAND_TOOL_EFFECT, command.number = tool_of(simulation->world, holder);
+  if (strcmp(section, "effects") == 0) command.kind = SPORE_COMMAND_EMITTER_EFFECT, command.number = emitter_of(holder);
+  gboolean there = command.kind == SPORE_COMMAND_EFFECT ? command.body != SPORE_NO_BODY : command.number >= 0;
+  return there && spore_world_post(simulation->world, &command);
 }
 
 gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *document, SporeObject *object,

@@ -146,11 +146,21 @@ static gboolean stop(SporeDocument *copy, const char *name, gboolean left_out, G
          set_text(copy, body, "role", "unmovable", error);
 }
 
-/* Whether physics or an effect moves the body. */
-static gboolean vary_mode(SporeDocument *copy, SporeObject *body, const SporeVariation *variation, GError **error) {
-  gboolean effect = variation->effect && g_str_equal(variation->effect, spore_object_name(body));
-  if (!effect && !(variation->physical && spore_object_child_of(body, "fidelity"))) return TRUE;
-  return spore_fidelity_set_mode(copy, body, effect ? "effect" : "physical", error);
+/* Whether the element, which is of that section, is physical or an effect. */
+static gboolean vary_mode(SporeDocument *copy, SporeObject *element, const char *section,
+                          const SporeVariation *variation, GError **error) {
+  const char *varied = variation->effect_section ? variation->effect_section : "bodies";
+  gboolean effect =
+      variation->effect && g_str_equal(varied, section) && g_str_equal(variation->effect, spore_object_name(element));
+  if (!effect && !(variation->physical && spore_object_child_of(element, "fidelity"))) return TRUE;
+  return spore_fidelity_set_mode(copy, element, effect ? "effect" : "physical", error);
+}
+
+static gboolean vary_modes(SporeDocument *copy, const char *section, const SporeVariation *variation, GError **error) {
+  SporeObject *elements = spore_document_section(copy, section);
+  for (guint i = 0; i < spore_object_child_count(elements); i++)
+    if (!vary_mode(copy, spore_object_child(elements, i), section, variation, error)) return FALSE;
+  return TRUE;
 }
 
 /* What the variation says of one body. */
@@ -167,11 +177,12 @@ gboolean spore_variation_set(SporeDocument *copy, const SporeVariation *variatio
   SporeObject *bodies = spore_document_section(copy, "bodies");
   guint passive = 0, named = 0, taken = 0;
   if (!vary_solver(copy, variation, error)) return FALSE;
+  if (!vary_modes(copy, "tools", variation, error) || !vary_modes(copy, "effects", variation, error)) return FALSE;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
     if (!vary_contact(copy, body, variation->contact, error)) return FALSE;
     if ((int)spore_object_number(body, "role") != SPORE_PASSIVE) continue;
-    if (!vary_mode(copy, body, variation, error)) return FALSE;
+    if (!vary_mode(copy, body, "bodies", variation, error)) return FALSE;
     passive++;
     if (variation->body && strcmp(variation->body, spore_object_name(body)) != 0) continue;
     named++;

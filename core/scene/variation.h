@@ -22,8 +22,9 @@ typedef struct SporeVariation {
   double stiffness, mass;           /* factors on what the models of the bodies say; 0: 1 */
   double contact;                   /* factor on the stiffness of the contact law of every body; 0: 1 */
   const char *still;                /* a passive body that stands still instead; NULL: none */
-  const char *effect;               /* a body that an effect moves; NULL: as the scene says */
-  gboolean physical;                /* physics moves all other passive bodies */
+  const char *effect;               /* name of what is an effect; NULL: as the scene says */
+  const char *effect_section;       /* that it is in: "tools", "effects"; NULL: "bodies" */
+  gboolean physical;                /* physics moves all other passive bodies, and all other tools are physical */
   const char *left_out;             /* a passive body that is not there, nor what ties it; NULL: none */
   const SporeBodySetting *settings; /* setting_count */
   gsize setting_count;

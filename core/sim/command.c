@@ -78,6 +78,14 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
   spore_world_wake_all(world);
 }
 
+static void set_element_effect(SporeWorld *world, const SporeCommand *command) {
+  size_t index = (size_t)fmax(command->number, 0);
+  if (command->kind == SPORE_COMMAND_TOOL_EFFECT && index < world->tools.count)
+    spore_world_set_tool_effect(world, index, command->effect);
+  if (command->kind == SPORE_COMMAND_EMITTER_EFFECT && index < world->tools.emitter_count)
+    world->tools.emitters[index].effect = command->effect;
+}
+
 static void apply(SporeWorld *world, const SporeCommand *command) {
   world->solve.watch.started = false;
   if (command->kind == SPORE_COMMAND_GRAVITY) {
@@ -86,6 +94,10 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   }
   if (command->kind == SPORE_COMMAND_WIPE) {
     spore_world_wipe_lens(world, (size_t)fmax(command->number, 0));
+    return;
+  }
+  if (command->kind == SPORE_COMMAND_TOOL_EFFECT || command->kind == SPORE_COMMAND_EMITTER_EFFECT) {
+    set_element_effect(world, command);
     return;
   }
   if (command->body >= world->body_count) return;
@@ -118,6 +130,8 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     break;
   case SPORE_COMMAND_GRAVITY:
   case SPORE_COMMAND_WIPE:
+  case SPORE_COMMAND_TOOL_EFFECT:
+  case SPORE_COMMAND_EMITTER_EFFECT:
     break;
   }
 }

@@ -28,8 +28,14 @@ static bool has_tools(const SporeWorld *world) { return world->tools.count > 0; 
 static bool may_tear(const SporeWorld *world) { return world->topology.tearing_count > 0; }
 static bool may_touch(const SporeWorld *world) { return world->contact.grid != NULL; }
 static bool may_sleep(const SporeWorld *world) { return world->solver.sleep_speed > 0 && has_passive(world); }
+/* Whether jaws may hold something by ties. */
+static bool may_hold(const SporeWorld *world) {
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i]->spring_count > 0 && !world->tools.all[i]->effect) return true;
+  return false;
+}
 static bool has_springs(const SporeWorld *world) {
-  return (world->links.count > 0 || world->links.hold_count > 0 || world->links.pull_count > 0) && has_passive(world);
+  return (world->links.count > 0 || may_hold(world) || world->links.pull_count > 0) && has_passive(world);
 }
 static bool has_terms(const SporeWorld *world) { return may_touch(world) || has_springs(world); }
 static bool may_split(const SporeWorld *world) { return world->topology.cuts.corner_count > 0; }
@@ -43,7 +49,7 @@ static bool may_break(const SporeWorld *world) {
 
 static bool has_holds(const SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++)
-    if (world->tools.all[i]->type->tear) return true;
+    if (world->tools.all[i]->type->tear && !world->tools.all[i]->effect) return true;
   return false;
 }
 

@@ -93,6 +93,7 @@ typedef struct SporeEmitterDescription {
   uint32_t source;            /* the body that the mouth moves with; SPORE_NO_BODY: the world */
   SporeVec3 point, direction; /* middle of the mouth, m, and the way out of the mouth; world, at time 0 */
   SporeEmitterFields fields;
+  bool effect; /* at time 0: what comes out is counted, and stains the source, and no particle comes out */
 } SporeEmitterDescription;
 
 /* All that a world is made from. The arrays are borrowed during spore_world_create. */
@@ -297,6 +298,10 @@ size_t spore_world_tool_count(const SporeWorld *world);
 const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t tool);
 /* State of a tool, in the order of the description. */
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
+/* Whether the tool is an effect now; and of emitter i, in the order of the description. */
+bool spore_world_tool_is_effect(const SporeWorld *world, size_t tool);
+size_t spore_world_emitter_count(const SporeWorld *world);
+bool spore_world_emitter_is_effect(const SporeWorld *world, size_t emitter);
 /* Where a tool acts now, m: the end of blades, the tip of a needle, the mouth of suction, the point that heats, or the
  * middle between the spheres of closed jaws that are farthest from the hinge. */
 SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t tool);
@@ -309,6 +314,7 @@ typedef struct SporeBodyMarks {
   uint64_t pierced;    /* surfaces */
   uint64_t sucked;     /* particles */
   uint64_t poured;     /* particles that emitters put into the world */
+  uint64_t seeped;     /* of a fluid: as many would have come out of emitters that are effects */
 } SporeBodyMarks;
 SporeBodyMarks spore_world_body_marks(const SporeWorld *world, uint32_t body);
 
@@ -549,6 +555,14 @@ typedef struct SporeSnapshotLink {
   double load;    /* N, as in SporeLinkState */
   bool broken;
 } SporeSnapshotLink;
+/* Tissue that an effect draws squeezed, between the jaws of a clamp. In its frame the jaws lie along x, from the hinge
+ * at the origin, and close along z. */
+typedef struct SporeSqueeze {
+  uint32_t body;
+  SporePose frame;              /* world, m */
+  double length, width, height; /* m: of what is squeezed, from 0 along x; to both sides along y; to both along z */
+  double ratio;                 /* what is left of its thickness there; beyond, ever more of it */
+} SporeSqueeze;
 /* What all tools together have done so far; see SporeToolState. */
 typedef struct SporeToolCounts {
   size_t cut, pierced, stitches;
@@ -587,10 +601,16 @@ typedef struct SporeSnapshot {
   float *stain; /* stain_count, 0..1: how much of a fluid's colour each place has, see spore_world_stain_places */
   size_t lens_count;
   SporeLensState *lenses; /* lens_count */
+  size_t squeeze_count;
+  SporeSqueeze *squeezes; /* squeeze_count; see spore_squeeze_points */
   uint64_t message_count; /* as in SporeMonitor */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
   double step_us; /* time that the step took, us of the clock */
 } SporeSnapshot;
+/* Moves points of a body (point_count x 3, world, m) to where the squeezes draw them, which are those of a snapshot.
+ * For pictures: nothing else knows of it. */
+void spore_squeeze_points(const SporeSqueeze *squeezes, size_t count, uint32_t body, double *points,
+                          size_t point_count);
 /* spore_world_hash of the state in the snapshot. */
 uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot);
 /* Knots of a body's line in the snapshot, to which the body's q in the snapshot belongs; breaks are borrowed from the
@@ -616,6 +636,8 @@ typedef enum SporeCommandKind {
   SPORE_COMMAND_THAW,    /* lets a frozen body move again */
   SPORE_COMMAND_LOD,     /* changes `body` to `level`; where that is refused, the monitor says why */
   SPORE_COMMAND_WIPE,    /* wipes the lens whose number is `number` */
+  SPORE_COMMAND_TOOL_EFFECT,    /* makes the tool whose number is `number` an effect, or physical, as `effect` says */
+  SPORE_COMMAND_EMITTER_EFFECT, /* the same of an emitter */
   SPORE_COMMAND_EFFECT /* moves `body` by an effect where `effect` is true, else by physics; where that is refused, the
                           monitor says why */
 } SporeCommandKind;

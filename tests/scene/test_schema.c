@@ -31,7 +31,7 @@ static void check_parameter(const SporeObjectType *type, const SporeParameter *p
 }
 
 static void check_type(const SporeObjectType *type) {
-  g_assert_true(spore_schema_find(fixture_model_schema(), type->element) == type);
+  g_assert_true(spore_schema_find(fixture_model_schema(), type->key) == type);
   g_assert_cmpuint(strlen(type->label), >, 0);
   g_assert_cmpuint(strlen(type->doc), >, 10);
   for (size_t i = 0; i < type->table->count; i++) check_parameter(type, &type->table->parameters[i], &type->initial[i]);

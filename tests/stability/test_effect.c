@@ -541,6 +541,56 @@ static void test_blood_stains(void) {
   }
 }
 
+#define SEEP_M3_S 2e-7 /* .2 ml a second */
+
+/* A wound in the floor that is an effect, or lets particles out, for .8 s. */
+static Rig *seeping(bool effect) {
+  static SporeEmitterDescription wound;
+  Rig *rig = rig_new();
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0.03, 0), spore_vec3(0.008, 0.008, 0.008));
+  rig->description.solver.time_step = 2e-3;
+  SporeModel *model = rig_fluid_model(&cube, 60, "stain", 10., NULL);
+  rig_passive(rig, "blood", model, own_spheres(rig, model))->effect = true;
+  rig_unmovable(rig, "floor", rig_floor(rig, 48, 48, 0.002, 0.002));
+  wound = (SporeEmitterDescription){
+      .name = "wound", .body = 0, .source = 1, .point = {0.01, 0.001, 0}, .direction = {0, 1, 0}, .effect = effect};
+  spore_parameters_set_initial(&spore_emitter_parameters, &wound.fields);
+  wound.fields.flow = SEEP_M3_S, wound.fields.reserve = 40;
+  rig->description.emitters = &wound, rig->description.emitter_count = 1;
+  rig_run(rig_build(rig), 400);
+  return rig;
+}
+
+/* What seeps is counted as what comes out is, makes no particle, and stains its source around the mouth as far as it
+ * would run as a film. */
+static void test_seeping(void) {
+  Rig *effect = seeping(true), *physical = seeping(false);
+  SporeBodyMarks seeped = spore_world_body_marks(effect->world, 0), poured = spore_world_body_marks(physical->world, 0);
+  SporeStainPlaces places = spore_world_stain_places(effect->world, 1);
+  double film = sqrt(0.8 * SEEP_M3_S / (3.141592653589793 * 5e-4)), farthest = 0, under = 0;
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(effect->world);
+  for (size_t i = 0; i < places.count; i++) {
+    double far = spore_vec3_distance(spore_vec3_load(places.rest + 3 * i), spore_vec3(0.01, 0.001, 0));
+    double stain = (double)snapshot->stain[places.start + i];
+    if (stain > 0) farthest = fmax(farthest, far);
+    if (far < 0.004) under = fmax(under, stain);
+  }
+  g_test_message("%zu drops' worth seeped, %zu drops came out; stained up to %.1f mm from the mouth, film %.1f mm",
+                 (size_t)seeped.seeped, (size_t)poured.poured, 1e3 * farthest, 1e3 * film);
+  g_assert_cmpuint(seeped.poured, ==, 0);
+  g_assert_cmpuint(seeped.seeped, ==, poured.poured);
+  g_assert_cmpuint(seeped.seeped, >, 5);
+  g_assert_cmpuint(spore_world_particle_count(effect->world, 0), ==,
+                   spore_world_body_model(effect->world, 0)->node_count - 40);
+  g_assert_cmpfloat(farthest, <=, film);
+  g_assert_cmpfloat(farthest, >, 0.7 * film);
+  g_assert_cmpfloat(under, >, 0.9);
+  g_assert_cmpfloat_with_epsilon(snapshot->tools.poured, 0.8 * SEEP_M3_S, 0.02 * 0.8 * SEEP_M3_S);
+  rig_free(effect);
+  rig_free(physical);
+}
+
 /* Blood that is put away after .2 s, and what is left of its stain after .4 s more; *hash: of the state then. */
 static double stain_left(Rig *rig, SporeDevice *device, uint64_t *hash) {
   SporeWorld *world = rig_build(rig);
@@ -759,5 +809,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/smoke-hazes", test_smoke_hazes);
   g_test_add_func("/stability/effect/irrigation-washes", test_irrigation_washes);
   g_test_add_func("/stability/effect/dent", test_dent);
+  g_test_add_func("/effect/seeping", test_seeping);
   return g_test_run();
 }

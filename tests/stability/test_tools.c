@@ -376,6 +376,106 @@ static void test_effect_is_clamped(void) {
   }
 }
 
+/* Far above the tissue. */
+static bool away_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
+                          SporeDeviceState *state) {
+  *state = (SporeDeviceState){.position = {0, 0.2, 0}, .orientation = {1, 0, 0, 0}, .grip_rad = 1};
+  return true;
+}
+static const SporeDeviceType away_type = {.name = "away", .doc = "", .exchange = away_exchange, .close = hand_close};
+
+static Rig *clip_scene(SporeDevice *device, bool effect) {
+  Rig *rig = scene(&spore_clamp, 2, NULL);
+  g_array_index(rig->tools, SporeToolDescription, 0).effect = effect;
+  spore_world_set_device(rig_build(rig), SHAFT, device);
+  return rig;
+}
+
+static double shaft_height(const SporeWorld *world) { return spore_world_q(world, SHAFT)[1]; }
+
+/* How far apart two points across the jaws are drawn that are `wide` apart, at a height above the jaws' tips. */
+static double drawn_width(SporeWorld *world, double wide, double above) {
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+  double y = shaft_height(world) - 0.024 + above, points[6] = {-0.5 * wide, y, 0, 0.5 * wide, y, 0};
+  spore_squeeze_points(snapshot->squeezes, snapshot->squeeze_count, TISSUE, points, 2);
+  return spore_vec3_distance(spore_vec3_load(points), spore_vec3_load(points + 3));
+}
+
+/* A clamp that is an effect closes on tissue, stays on it and not at its device, and lets go; the tissue is to the bit
+ * what it is where no clamp comes near. Between the jaws it is drawn thinner, elsewhere as it is. */
+static void test_clip(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 9, .buttons = 2};
+  SporeDevice away = {&away_type};
+  Rig *rig = clip_scene(&hand.base, true), *bare = clip_scene(&away, false);
+  SporeWorld *world = rig->world;
+  run_to(world, 0.5);
+  g_assert_cmpuint(spore_world_snapshot_acquire(world)->squeeze_count, ==, 0);
+  double low = shaft_height(world);
+  uint64_t before = spore_allocation_count();
+  run_to(world, 1.7);
+  g_assert_cmpuint(spore_allocation_count(), ==, before);
+  say(world, "put on");
+  run_to(bare->world, 1.7);
+  g_assert_true(spore_world_tool_is_effect(world, 0));
+  g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), >, 0);
+  g_assert_cmpfloat(shaft_height(world), <, low + 0.005); /* and its device has gone 30 mm up */
+  g_assert_cmphex(spore_world_body_hash(world, TISSUE), ==, spore_world_body_hash(bare->world, TISSUE));
+  double squeezed = drawn_width(world, 0.01, 0.004), beyond = drawn_width(world, 0.01, 0.1);
+  g_test_message("10 mm of tissue are drawn %.2f mm wide between the jaws, %.2f mm beside", 1e3 * squeezed,
+                 1e3 * beyond);
+  g_assert_cmpfloat(squeezed, <, 0.005);
+  g_assert_cmpfloat(beyond, ==, 0.01);
+  for (double wide = 0.001; wide < 0.1; wide += 0.001)
+    g_assert_cmpfloat(drawn_width(world, wide, 0.004), <, drawn_width(world, wide + 0.001, 0.004));
+  run_to(world, 6);
+  run_to(bare->world, 6);
+  say(world, "taken off");
+  g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), ==, 0);
+  g_assert_cmpuint(spore_world_snapshot_acquire(world)->squeeze_count, ==, 0);
+  g_assert_cmpfloat_with_epsilon(shaft_height(world), 0.06, 1e-9); /* back at its device */
+  g_assert_cmphex(spore_world_body_hash(world, TISSUE), ==, spore_world_body_hash(bare->world, TISSUE));
+  rig_free(rig);
+  rig_free(bare);
+}
+
+static void post_clip(SporeWorld *world, bool effect) {
+  const SporeCommand command = {.kind = SPORE_COMMAND_TOOL_EFFECT, .number = 0, .effect = effect};
+  g_assert_true(spore_world_post(world, &command));
+}
+
+/* What the clamp holds it keeps when it becomes an effect, and when it becomes physical again: then it lifts the tissue
+ * to where its device is. A reset brings the form of time 0. */
+static void test_clip_switched(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 9, .buttons = 2};
+  Rig *rig = clip_scene(&hand.base, false);
+  SporeWorld *world = rig->world;
+  run_to(world, 0.95);
+  double low = height(world);
+  size_t held = spore_world_tool_holds(world, 0, TISSUE);
+  g_assert_cmpuint(held, >, 0);
+  post_clip(world, true);
+  run_to(world, 1.7);
+  say(world, "effect");
+  g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), ==, held);
+  g_assert_cmpfloat(height(world), <, low + 0.002);
+  post_clip(world, false);
+  run_to(world, 2.4);
+  say(world, "physical");
+  g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), >, 0);
+  g_assert_cmpfloat(height(world), >, low + 0.025);
+  for (int i = 0; i < 40; i++) { /* to and fro: nothing is thrown */
+    post_clip(world, i % 2 == 0);
+    run_to(world, 2.4 + 0.002 * (i + 1));
+  }
+  const double *v = spore_world_v(world, TISSUE);
+  for (size_t i = 0; i < spore_world_body_model(world, TISSUE)->node_count; i++)
+    g_assert_cmpfloat(spore_vec3_length(spore_vec3_load(v + 3 * i)), <, 0.5);
+  spore_world_reset(world);
+  g_assert_false(spore_world_tool_is_effect(world, 0));
+  g_assert_cmpuint(spore_world_tool_holds(world, 0, TISSUE), ==, 0);
+  rig_free(rig);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tools/grasper", test_grasper);
@@ -387,5 +487,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/tools/scissors", test_scissors);
   g_test_add_func("/tools/bipolar", test_bipolar);
   g_test_add_func("/tools/effect_is_clamped", test_effect_is_clamped);
+  g_test_add_func("/tools/clip", test_clip);
+  g_test_add_func("/tools/clip_switched", test_clip_switched);
   return g_test_run();
 }

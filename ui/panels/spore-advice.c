@@ -13,7 +13,7 @@ static gpointer take(gpointer work) { return g_steal_pointer(&((SporeAdviceWork 
 
 static void found_free(gpointer found) { spore_advice_free(found); }
 
-static void describe_body(GString *text, const SporeAdviceBody *body, double step_us) {
+static void describe_body(GString *text, const SporeAdviceElement *body, double step_us) {
   double saved_us;
   const char *change = spore_advice_change(body, &saved_us);
   g_autofree char *verdict = spore_choice_label(spore_verdict_names[body->verdict]);
@@ -30,7 +30,7 @@ static char *describe(gconstpointer data) {
   if (advice->exercise.steps > 0)
     g_string_append_printf(text, _("; of the exercise %zu of %zu steps are done, score %.1f"),
                            advice->exercise.steps_done, advice->exercise.steps, advice->exercise.score);
-  for (gsize k = 0; k < advice->count; k++) describe_body(text, &advice->bodies[k], advice->floor.step_us);
+  for (gsize k = 0; k < advice->count; k++) describe_body(text, &advice->elements[k], advice->floor.step_us);
   return g_string_free(text, FALSE);
 }
 
@@ -42,23 +42,23 @@ static gboolean apply_to(gconstpointer found, SporeDocument *document, GError **
   return spore_advice_apply(found, document, error);
 }
 
-static const SporeFindingKind kind = {
-    .find = N_("Physical or effect?"),
-    .find_hint =
-        N_("Replay the scene without the physics of each of its bodies, with its recorded input: who would miss "
-           "what?"),
-    .apply = N_("Apply advice"),
-    .apply_hint = N_("Let bodies that nobody would miss be effects, as one step that can be undone"),
-    .job = N_("Advice"),
-    .under_way = N_("Replaying the scene without the physics of each body …"),
-    .cancelled = N_("Cancelled: nothing is advised"),
-    .work_new = work_new,
-    .work_run = spore_advice_work_run,
-    .work_free = spore_advice_work_free,
-    .take = take,
-    .found_free = found_free,
-    .describe = describe,
-    .applies = applies,
-    .apply_to = apply_to};
+static const SporeFindingKind kind = {.find = N_("Physical or effect?"),
+                                      .find_hint = N_("Replay the scene without the physics of each of its bodies, "
+                                                      "clamps and emitters, with its recorded input: who would miss "
+                                                      "what?"),
+                                      .apply = N_("Apply advice"),
+                                      .apply_hint =
+                                          N_("Let what nobody would miss be effects, as one step that can be undone"),
+                                      .job = N_("Advice"),
+                                      .under_way = N_("Replaying the scene without the physics of each body …"),
+                                      .cancelled = N_("Cancelled: nothing is advised"),
+                                      .work_new = work_new,
+                                      .work_run = spore_advice_work_run,
+                                      .work_free = spore_advice_work_free,
+                                      .take = take,
+                                      .found_free = found_free,
+                                      .describe = describe,
+                                      .applies = applies,
+                                      .apply_to = apply_to};
 
 GtkWidget *spore_advice_box_new(void) { return spore_finding_new(&kind, NULL); }

@@ -305,6 +305,16 @@ static void add_model(SporeInspector *self, SporeObject *model) {
   add_object(self, box, model);
 }
 
+/* Of what may be an effect. NULL: it has no such form, or the section is folded. */
+static GtkBox *add_fidelity(SporeInspector *self, SporeObject *holder) {
+  if (!spore_object_type_child(spore_object_type(holder), "fidelity")) return NULL;
+  g_autofree char *path = spore_object_path(holder);
+  SporeObject *unit = spore_object_child_of(holder, "fidelity");
+  GtkBox *box = spore_section_list_add(sections_of(self), _("Fidelity"), path, unit);
+  if (box) add_unit(self, box, holder, "fidelity");
+  return box;
+}
+
 static void add_body(SporeInspector *self, SporeObject *body) {
   g_autofree char *path = spore_object_path(body);
   GtkBox *own = spore_section_list_add(sections_of(self), _("Body"), path, NULL);
@@ -319,11 +329,8 @@ static void add_body(SporeInspector *self, SporeObject *body) {
     add_regions(self, body, model);
     add_mapping(self, path);
   }
-  GtkBox *fidelity =
-      spore_section_list_add(sections_of(self), _("Fidelity"), path, spore_object_child_of(body, "fidelity"));
-  if (!fidelity) return;
-  add_unit(self, fidelity, body, "fidelity");
-  spore_add_level_list(fidelity, self->document, body, spore_section_rows(fidelity));
+  GtkBox *fidelity = add_fidelity(self, body);
+  if (fidelity) spore_add_level_list(fidelity, self->document, body, spore_section_rows(fidelity));
 }
 
 /* Of gravity: the positions of a patient. */
@@ -351,6 +358,7 @@ static void add_one(SporeInspector *self, SporeObject *object) {
   if (box && spore_object_name(object)) g_set_weak_pointer(&self->port_facts, spore_section_fact_new(box));
   if (box) add_object(self, box, object);
   if (box && g_str_equal(spore_object_type(object)->element, "environment")) add_patient(box);
+  add_fidelity(self, object);
 }
 
 /* What was measured is told, not edited. */

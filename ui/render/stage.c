@@ -14,6 +14,7 @@ SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   stage->fits = spore_stage_fits_new();
   stage->port_lines = g_array_new(FALSE, FALSE, sizeof(guint));
   stage->lenses = g_array_new(FALSE, FALSE, sizeof(SporeLensState));
+  stage->squeezes = g_array_new(FALSE, FALSE, sizeof(SporeSqueeze));
   stage->links = spore_stage_links_new();
   stage->contacts = g_array_new(FALSE, FALSE, sizeof(double));
   stage->painted_values = g_array_new(FALSE, FALSE, sizeof(float));
@@ -50,6 +51,7 @@ void spore_stage_free(SporeStage *stage) {
   g_array_free(stage->links, TRUE);
   g_array_free(stage->painted_values, TRUE);
   g_array_free(stage->lenses, TRUE);
+  g_array_free(stage->squeezes, TRUE);
   g_array_free(stage->port_lines, TRUE);
   g_free(stage);
 }
@@ -61,6 +63,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   stage->cut_count = 0;
   stage->touch_end = 0;
   g_array_set_size(stage->lenses, 0);
+  g_array_set_size(stage->squeezes, 0);
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
@@ -114,15 +117,26 @@ static SporeStageBody *body_of_level(SporeStage *stage, guint index, const Spore
   return body;
 }
 
+/* Whether tissue is drawn squeezed otherwise than before. */
+static gboolean take_squeezes(SporeStage *stage, const SporeSnapshot *snapshot) {
+  gsize bytes = snapshot->squeeze_count * sizeof *snapshot->squeezes;
+  if (stage->squeezes->len == snapshot->squeeze_count &&
+      (bytes == 0 || memcmp(stage->squeezes->data, snapshot->squeezes, bytes) == 0))
+    return FALSE;
+  g_array_set_size(stage->squeezes, 0);
+  if (bytes) g_array_append_vals(stage->squeezes, snapshot->squeezes, (guint)snapshot->squeeze_count);
+  return TRUE;
+}
+
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
-  gboolean flowed = FALSE;
+  gboolean flowed = FALSE, squeezed = take_squeezes(stage, snapshot);
   for (guint i = 0; i < stage->bodies->len; i++) {
     SporeStageBody *body = body_of_level(stage, i, snapshot);
     if (!body->moves) continue;
     const double *q = snapshot->q + body->q_offset;
     spore_stage_body_follow_knots(body, stage->simulation, snapshot);
     gboolean divided = body->cells && body->divided != snapshot->cuts.parted;
-    if (!divided && memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;
+    if (!divided && !squeezed && memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;
     memcpy(body->q, q, body->q_count * sizeof *q);
     spore_stage_body_divide(stage, body, &snapshot->cuts);
     spore_stage_body_place(stage, body);

@@ -85,6 +85,11 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
+static void squeeze(const SporeStage *stage, const SporeStageBody *body, double *points, gsize count) {
+  spore_squeeze_points((const SporeSqueeze *)(void *)stage->squeezes->data, stage->squeezes->len, body->world_body,
+                       points, count);
+}
+
 /* The tube around the curve of the body. It is made anew around the moved axis, because the mapping does not know the
  * twist. */
 static void place_tube(SporeStage *stage, SporeStageBody *body) {
@@ -93,6 +98,7 @@ static void place_tube(SporeStage *stage, SporeStageBody *body) {
   for (gsize i = 0; i < body->axis.count; i++)
     memcpy(body->tube.points + 4 * i, body->axis.positions + 3 * i, 3 * sizeof(double));
   if (!spore_curve_tube(&body->tube, TUBE_SECTORS, &tube, NULL)) return;
+  squeeze(stage, body, tube.vertices, tube.vertex_count);
   if (body->surface_handle) {
     memcpy(body->surface.positions, tube.vertices, 3 * tube.vertex_count * sizeof(double));
     spore_free(tube.triangles);
@@ -372,6 +378,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
     place_tube(stage, body);
   } else if (body->surface_handle) { /* hidden ones too: picking and bounds use their positions */
     spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
+    squeeze(stage, body, body->surface.positions, body->surface.count);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);
   }
   if (body->inside_handle) spore_renderer_move_surface(stage->renderer, body->inside_handle, body->q);

@@ -88,6 +88,7 @@ struct SporeStage {
   void (*found)(gpointer data);
   gpointer found_data;
   GHashTable *textures; /* checksum of a PNG -> its SporeStageTexture; see stage_texture.c */
+  GArray *squeezes;     /* SporeSqueeze of the snapshot that is shown */
   GArray *lenses;       /* SporeLensState of the snapshot that is shown, one a camera of the scene */
   guint contact_handle;
   GArray *links;                              /* see stage_links.c */

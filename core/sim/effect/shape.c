@@ -35,8 +35,8 @@ static bool holds(const SporeWorld *world, uint32_t jaw, const SporeBody *body) 
 static bool presses(const SporeWorld *world, uint32_t active, const SporeBody *body) {
   const SporeBody *other = &world->bodies[active];
   int64_t group = other->collision.fields.group;
-  return other->role == SPORE_ACTIVE && !(group != 0 && group == body->collision.fields.group) &&
-         !holds(world, active, body);
+  return other->role == SPORE_ACTIVE && !spore_world_is_led_by_effect(world, active) &&
+         !(group != 0 && group == body->collision.fields.group) && !holds(world, active, body);
 }
 
 /* Centre of the instrument's sphere when the step ends. */

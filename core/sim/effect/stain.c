@@ -237,6 +237,21 @@ static void wet(SporeWorld *world, const SporeBody *fluid, uint32_t drop, uint32
   }
 }
 
+#define FILM_M 5e-4 /* how thick blood lies that seeps from a wound */
+
+/* What seeped from the mouth has run over its source as far as it would as a film. The places are at rest: the film
+ * goes with the tissue. */
+static void wet_around(SporeWorld *world, SporeEmitter *emitter) {
+  if (!(emitter->seeped > emitter->seen) || emitter->source == SPORE_NO_BODY) return;
+  const SporeStainUnit *unit = &world->stains.units[emitter->source];
+  double rate = world->bodies[emitter->body].model->stain, radius = sqrt(emitter->seeped / (M_PI * FILM_M));
+  emitter->seen = emitter->seeped;
+  for (size_t i = 0; i < unit->count; i++) {
+    double off = spore_vec3_distance(spore_vec3_load(unit->rest + 3 * i), emitter->rest) / radius;
+    if (off < 1) wet_place(&world->stains, unit->start + i, rate, fmin(1, 2 * (1 - off)));
+  }
+}
+
 static void wet_pair(SporeWorld *world, uint32_t a, uint32_t b) {
   const SporeBody *of_a = &world->bodies[world->contact.spheres.body[a]];
   const SporeBody *of_b = &world->bodies[world->contact.spheres.body[b]];
@@ -266,6 +281,8 @@ void spore_world_stain(SporeWorld *world) {
   size_t pair_count = spore_grid_apart(world->contact.grid, &pairs);
   for (size_t i = 0; i < world->contact.count; i++) wet_pair(world, contacts[i].a, contacts[i].b);
   for (size_t i = 0; i < pair_count; i++) wet_pair(world, pairs[i].a, pairs[i].b);
+  for (size_t i = 0; i < world->tools.emitter_count; i++)
+    if (world->tools.emitters[i].effect) wet_around(world, &world->tools.emitters[i]);
   bool changed = false;
   for (size_t i = 0; i < stains->wet_count; i++) {
     uint32_t place = stains->wet[i];

@@ -40,6 +40,10 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->lens_count = world->lenses.count;
   if (world->lenses.count > 0) snapshot->lenses = SPORE_NEW_ARRAY(SporeLensState, world->lenses.count);
   if (world->lenses.count > 0 && !snapshot->lenses) return false;
+  size_t squeezes = 0;
+  for (size_t i = 0; i < world->tools.count; i++) squeezes += world->tools.all[i]->type->squeeze != NULL;
+  if (squeezes > 0) snapshot->squeezes = SPORE_NEW_ARRAY(SporeSqueeze, squeezes);
+  if (squeezes > 0 && !snapshot->squeezes) return false;
   snapshot->link_count = world->links.count;
   snapshot->links = SPORE_NEW_ARRAY(SporeSnapshotLink, world->links.count);
   if (!snapshot->links) return false;
@@ -78,6 +82,7 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].stain);
     spore_free(snapshots->buffers[i].lenses);
+    spore_free(snapshots->buffers[i].squeezes);
     spore_free(snapshots->buffers[i].links);
     spore_free(snapshots->buffers[i].cuts.edges);
     spore_free(snapshots->buffers[i].cuts.corners);
@@ -98,6 +103,15 @@ static void copy_links(const SporeWorld *world, SporeSnapshot *snapshot) {
       shown->b = spore_vec3_add_scaled(shown->b, share, term->b.position);
       if (!link->broken) shown->load += spore_vec3_length(term->force);
     }
+  }
+}
+
+static void copy_squeezes(const SporeWorld *world, SporeSnapshot *snapshot) {
+  snapshot->squeeze_count = 0;
+  for (size_t i = 0; i < world->tools.count; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    if (tool->type->squeeze && tool->type->squeeze(world, tool, &snapshot->squeezes[snapshot->squeeze_count]))
+      snapshot->squeeze_count++;
   }
 }
 
@@ -237,6 +251,7 @@ void spore_world_publish(SporeWorld *world) {
   copy_lines(world, snapshot);
   copy_stains(world, snapshot);
   for (size_t i = 0; i < world->lenses.count; i++) snapshot->lenses[i] = world->lenses.state[i];
+  copy_squeezes(world, snapshot);
   copy_links(world, snapshot);
   snapshot->step_us = world->schedule.step_us;
   spore_triple_publish(&snapshots->triple);

@@ -12,13 +12,12 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/sim/tool/clip.h"
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
 
 #define HOLD_SHARE 0.5  /* of the torque: squeeze from which jaws hold */
 #define LET_GO_RAD 0.02 /* opening beyond that at which holding began, which releases */
-#define PINCHED 0.3     /* of the radius of an effect's sphere: depth of both jaws in it together, to hold it */
-#define REACHED -0.1    /* the same of each: from there a jaw reaches it */
 
 const char *const spore_jaw_triggers[] = {"grip", "button", NULL};
 
@@ -59,6 +58,19 @@ static SporeVec3 tip_of(const SporeWorld *world, const SporeJaws *jaws) {
   return count > 0 ? spore_vec3_scale(1 / count, sum) : jaws->hinge;
 }
 
+static double reach_of(const SporeWorld *world, const SporeJaws *jaws) {
+  double reach = 0;
+  for (int j = 0; j < 2; j++) {
+    const SporeBody *body = jaws->jaw[j].body == SPORE_NO_BODY ? NULL : &world->bodies[jaws->jaw[j].body];
+    for (size_t i = 0; body && i < body->collision.spheres.point_count; i++) {
+      SporeVec3 at = spore_pose_apply(jaws->jaw[j].closed, spore_vec3_load(body->collision.spheres.points + 3 * i));
+      double radius = world->contact.spheres.radius[body->collision.start + i];
+      reach = fmax(reach, spore_vec3_distance(at, jaws->hinge) + radius);
+    }
+  }
+  return reach;
+}
+
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   assert(from->fields && tool->bodies[0] < world->body_count);
   assert(tool->spring_start + tool->spring_count <= spore_world_spring_count(world));
@@ -79,6 +91,7 @@ bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescript
         (SporePose){spore_pose_apply_inverse(*frame, pose->position), spore_quat_multiply(back, pose->orientation)};
   }
   tool->tip = tip_of(world, jaws);
+  jaws->reach = reach_of(world, jaws);
   jaws->held_at = -1;
   jaws->holds = SPORE_NEW_ARRAY(SporeHold, tool->spring_count);
   bool made = jaws->holds != NULL;
@@ -95,51 +108,6 @@ void spore_jaws_clear(SporeTool *tool) { spore_free(((SporeJaws *)tool)->holds);
 
 /* Holds. */
 
-static void let_go(SporeWorld *world, SporeJaws *jaws) {
-  assert(jaws->holds);
-  for (size_t i = 0; i < jaws->tool.spring_count; i++) {
-    jaws->holds[i].state = SPORE_HOLD_FREE;
-    world->links.active[jaws->tool.spring_start + i] = false;
-  }
-  jaws->held_at = -1;
-}
-
-/* A free hold for the sphere; NULL: there is none, or the sphere is held already. */
-static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
-  SporeHold *place = NULL;
-  for (size_t i = 0; i < jaws->tool.spring_count; i++) {
-    SporeHold *hold = &jaws->holds[i];
-    if (hold->state == SPORE_HOLD_FREE) place = place ? place : hold;
-    else if (hold->sphere == sphere) return NULL;
-  }
-  return place;
-}
-
-/* Ties the sphere to the jaw at its present place. */
-static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32_t sphere) {
-  assert(jaw < world->body_count);
-  assert(sphere < world->contact.spheres.count);
-  SporeHold *hold = find_place(jaws, sphere);
-  if (!hold) return;
-  *hold = (SporeHold){SPORE_HOLD_TIED, sphere};
-  size_t index = jaws->tool.spring_start + (size_t)(hold - jaws->holds);
-  uint32_t held = world->contact.spheres.body[sphere];
-  const SporeBody *body = &world->bodies[held];
-  uint32_t point = sphere - (uint32_t)body->collision.start;
-  SporeSpringTerm *term = &world->links.springs[index];
-  term->a = (SporeEnd){.mapping = &body->collision.spheres, .body = held, .point = point};
-  term->b = (SporeEnd){.mapping = &world->links.mappings[2 * index + 1], .body = jaw};
-  const double *frame = world->state.q + world->bodies[jaw].q_offset;
-  const SporePose pose = {spore_vec3_load(frame), spore_quat_load(frame + 3)};
-  SporeVec3 at = spore_mapping_position(&body->collision.spheres, point, world->state.q + body->q_offset);
-  spore_vec3_store(term->b.mapping->points, spore_pose_apply_inverse(pose, at));
-  double mass = body->total_mass / (double)body->collision.spheres.point_count;
-  term->law = (SporeSpring){.stiffness = jaws->fields.stiffness, .damping = 2 * sqrt(jaws->fields.stiffness * mass)};
-  term->force = (SporeVec3){0, 0, 0};
-  world->links.active[index] = true;
-  spore_world_wake(world, held);
-}
-
 /* Holds the spheres that the jaws press, found by the contacts of the last step. */
 static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
   assert(world->contact.count <= world->contact.capacity);
@@ -149,60 +117,17 @@ static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
     for (int j = 0; j < 2; j++) {
       uint32_t jaw = jaws->jaw[j].body;
       if (term->a.body == jaw && world->bodies[term->b.body].role == SPORE_PASSIVE)
-        hold_sphere(world, jaws, jaw, term->sphere_b);
+        spore_jaws_hold(world, jaws, jaw, term->sphere_b);
       if (term->b.body == jaw && world->bodies[term->a.body].role == SPORE_PASSIVE)
-        hold_sphere(world, jaws, jaw, term->sphere_a);
+        spore_jaws_hold(world, jaws, jaw, term->sphere_a);
     }
   }
   if (jaws->held_at < 0) jaws->held_at = jaws->opening;
 }
 
-/* How deep the jaw is in the ball, m; negative: it does not touch it. */
-static double depth_in(const SporeWorld *world, const SporeJaw *jaw, SporeVec3 centre, double radius) {
-  assert(jaw->body < world->body_count);
-  double deepest = -HUGE_VAL;
-  const SporeBody *body = &world->bodies[jaw->body];
-  const SporeMapping *spheres = &body->collision.spheres;
-  for (size_t i = 0; i < spheres->point_count; i++) {
-    SporeVec3 at = spore_mapping_position(spheres, i, world->state.q + body->q_offset);
-    double reach = radius + world->contact.spheres.radius[body->collision.start + i];
-    deepest = fmax(deepest, reach - spore_vec3_distance(at, centre));
-  }
-  return deepest;
-}
-
-/* Whether jaws feel the body where it is an effect; drops they do not feel. */
-static bool pinch_body(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body) {
-  int64_t group = world->bodies[jaws->jaw[0].body].collision.fields.group;
-  return body->effect.on && !body->effect.drops.from && !(group != 0 && group == body->collision.fields.group);
-}
-
-/* Whether both jaws have a sphere of the effect between them. */
-static bool pinch_sphere(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body, size_t sphere) {
-  double radius = world->contact.spheres.radius[body->collision.start + sphere];
-  SporeVec3 centre = spore_mapping_position(&body->collision.spheres, sphere, world->state.q + body->q_offset);
-  double a = depth_in(world, &jaws->jaw[0], centre, radius), b = depth_in(world, &jaws->jaw[1], centre, radius);
-  return fmin(a, b) > REACHED * radius && a + b > PINCHED * radius;
-}
-
-/* Holds the spheres of effects that the jaws pinch; whether there are any. */
-static bool hold_pinched(SporeWorld *world, SporeJaws *jaws) {
-  bool found = false;
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    size_t count = pinch_body(world, jaws, body) ? body->collision.spheres.point_count : 0;
-    for (size_t i = 0; i < count; i++) {
-      if (!pinch_sphere(world, jaws, body, i)) continue;
-      hold_sphere(world, jaws, jaws->jaw[0].body, (uint32_t)(body->collision.start + i));
-      found = true;
-    }
-  }
-  return found;
-}
-
 static void tear(SporeWorld *world, SporeTool *tool) {
   SporeJaws *jaws = (SporeJaws *)tool;
-  for (size_t i = 0; i < jaws->tool.spring_count; i++) {
+  for (size_t i = 0; i < jaws->tool.spring_count && !spore_clip_leads(jaws); i++) {
     SporeHold *hold = &jaws->holds[i];
     size_t index = jaws->tool.spring_start + i;
     if (hold->state != SPORE_HOLD_TIED) continue;
@@ -294,22 +219,29 @@ void spore_jaws_follow(SporeWorld *world, SporeTool *tool) {
     if (jaws->jaw[j].body != SPORE_NO_BODY) jaws->opening = jaws->stroke = opening_of(world, jaws, &jaws->jaw[j]);
 }
 
+/* Closes by physics: presses what is between the jaws, holds it, and lets it go. */
+static void press(SporeWorld *world, SporeJaws *jaws, double wanted) {
+  const SporeTool *tool = &jaws->tool;
+  jaws->squeeze = fmax(0, fmax(opening_torque(world, jaws, &jaws->jaw[0]), opening_torque(world, jaws, &jaws->jaw[1])));
+  bool shut = wanted <= 0 && jaws->opening <= 0;
+  bool presses = shut ? jaws->squeeze > 0 : wanted < jaws->opening && jaws->squeeze >= HOLD_SHARE * jaws->fields.torque;
+  bool closes = wanted < jaws->opening && !hold_effect(world, jaws);
+  presses |= closes && tool->spring_count > 0 && spore_jaws_pinch(world, jaws, true);
+  if (presses && tool->spring_count > 0) hold_touched(world, jaws);
+  if (presses && jaws->latches) jaws->latched = true;
+  if (jaws->held_at >= 0 && wanted > jaws->held_at + LET_GO_RAD) spore_jaws_let_go(world, jaws);
+  if (wanted >= jaws->opening || !hold_effect(world, jaws))
+    jaws->opening = next_opening(jaws, wanted, world->solver.time_step);
+}
+
 void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
   assert(tool->bodies[0] < world->body_count);
   SporeJaws *jaws = (SporeJaws *)tool;
   const SporeBody *body = &world->bodies[jaws->tool.bodies[0]];
-  double wanted = wanted_opening(jaws, &body->device.input, body->device.has_input);
-  jaws->squeeze = fmax(0, fmax(opening_torque(world, jaws, &jaws->jaw[0]), opening_torque(world, jaws, &jaws->jaw[1])));
-  double before = jaws->opening;
-  bool shut = wanted <= 0 && jaws->opening <= 0;
-  bool presses = shut ? jaws->squeeze > 0 : wanted < jaws->opening && jaws->squeeze >= HOLD_SHARE * jaws->fields.torque;
-  bool closes = wanted < jaws->opening && !hold_effect(world, jaws);
-  presses |= closes && tool->spring_count > 0 && hold_pinched(world, jaws);
-  if (presses && tool->spring_count > 0) hold_touched(world, jaws);
-  if (presses && jaws->latches) jaws->latched = true;
-  if (jaws->held_at >= 0 && wanted > jaws->held_at + LET_GO_RAD) let_go(world, jaws);
-  if (wanted >= jaws->opening || !hold_effect(world, jaws))
-    jaws->opening = next_opening(jaws, wanted, world->solver.time_step);
+  double wanted = wanted_opening(jaws, &body->device.input, body->device.has_input), before = jaws->opening;
+  if (spore_clip_leads(jaws)) spore_clip_use(world, jaws, wanted);
+  else press(world, jaws, wanted);
+  spore_clip_come_back(world, jaws);
   for (int j = 0; j < 2; j++)
     if (jaws->jaw[j].body != SPORE_NO_BODY) place_jaw(world, jaws, &jaws->jaw[j]);
   if (jaws->opening > before) jaws->stroke = jaws->opening;
@@ -334,9 +266,10 @@ void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool) {
 
 void spore_jaws_reset(SporeWorld *world, SporeTool *tool) {
   SporeJaws *jaws = (SporeJaws *)tool;
-  let_go(world, jaws);
+  spore_jaws_let_go(world, jaws);
   jaws->opening = jaws->squeeze = jaws->stroke = 0;
   jaws->latched = false;
+  if (jaws->latches) spore_clip_reset(world, jaws);
 }
 
 void spore_jaws_state(const SporeTool *tool, SporeToolState *state) {
@@ -362,8 +295,11 @@ static size_t holds(const SporeWorld *world, const SporeTool *tool, uint32_t bod
 static size_t spring_count(const void *fields) { return (size_t)((const SporeJawFields *)fields)->holds; }
 
 static bool make_clamp(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
-  ((SporeJaws *)tool)->latches = true;
-  return spore_jaws_make(world, tool, from);
+  SporeJaws *jaws = (SporeJaws *)tool;
+  jaws->latches = true;
+  if (!spore_jaws_make(world, tool, from)) return false;
+  spore_clip_make(world, jaws);
+  return true;
 }
 
 static const SporeParameter rows[] = {SPORE_JAW_BODY_ROWS, SPORE_JAW_ROWS};
@@ -414,4 +350,6 @@ const SporeToolType spore_clamp = {
     .feed_back = spore_jaws_feed_back,
     .state = spore_jaws_state,
     .holds = holds,
-    .pinches = pinches};
+    .pinches = pinches,
+    .set_effect = spore_clip_set_effect,
+    .squeeze = spore_clip_squeeze};

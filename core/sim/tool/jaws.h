@@ -18,17 +18,32 @@ typedef struct SporeJaw {
   double side;      /* 1, -1: direction in which it opens about the axis */
 } SporeJaw;
 
+/* What a clamp knows of itself as an effect; see clip.h. */
+typedef struct SporeClip {
+  SporeVec3 along;      /* from the hinge to the tips, in the frame of the tool's body */
+  double length, width; /* of the jaws, m: along that; to either side of it */
+  bool set;             /* it sits on a body and goes along with it */
+  bool leaving;         /* it opens, and is physical then */
+  bool back;            /* the shaft is on its way back to its device */
+  uint32_t body;        /* that it sits on */
+  SporeSeat seat;       /* among the body's spheres */
+  SporePose shaft;      /* in the frame of the seat */
+  double touched;       /* opening at which the jaws touched what is between them, rad */
+} SporeClip;
+
 typedef struct SporeJaws {
   SporeTool tool;
   SporeJawFields fields;
   SporeVec3 hinge, axis; /* in the frame of the tool's body */
   SporeJaw jaw[2];
+  double reach;          /* of the jaws' spheres from the hinge, m */
   bool latches, latched; /* of a clamp */
   SporeHold *holds;      /* tool.spring_count */
   double opening;        /* rad */
   double squeeze;        /* torque against closing, N m */
   double held_at;        /* opening at which the jaws began to hold; negative: they hold nothing */
   double stroke;         /* opening at which they began to close, rad */
+  SporeClip clip;        /* of a clamp */
 } SporeJaws;
 
 /* What is wrong with the jaws' bodies or hinge, or with the hinge alone; translated, or NULL. */
@@ -42,6 +57,17 @@ void spore_jaws_follow(SporeWorld *world, SporeTool *tool);
 void spore_jaws_use(SporeWorld *world, SporeTool *tool);
 void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
 void spore_jaws_state(const SporeTool *tool, SporeToolState *state);
+
+/* holds.c */
+/* Lets go of all that is held. */
+void spore_jaws_let_go(SporeWorld *world, SporeJaws *jaws);
+/* Holds the sphere, tied to that jaw, where it is not held yet and there is a hold for it. */
+void spore_jaws_hold(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32_t sphere);
+/* Ties the spheres that are held to the first jaw, at their present places. */
+void spore_jaws_tie(SporeWorld *world, SporeJaws *jaws);
+/* Holds the spheres that lie between both jaws: those of effects, tied; or those of all bodies, and ties none. Whether
+ * there are any. */
+bool spore_jaws_pinch(SporeWorld *world, SporeJaws *jaws, bool effects);
 
 extern const char *const spore_jaw_triggers[3]; /* choices of `trigger`, NULL at the end */
 

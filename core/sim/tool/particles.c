@@ -204,6 +204,16 @@ static double due_of(const SporeWorld *world, const SporeEmitter *emitter, int t
   return flows(world, trigger, emitter->source) ? fmin(emitter->due + most, 1 + most) : 0;
 }
 
+/* As an effect: what is due is counted, and no particle is put. */
+static void seep(SporeWorld *world, SporeEmitter *emitter) {
+  SporeBody *body = &world->bodies[emitter->body];
+  double count = floor(emitter->due), volume = count * body->model->particle_volume;
+  emitter->due -= count;
+  emitter->seeped += volume;
+  body->marks.seeped += (uint64_t)count;
+  if (is_jet(emitter)) world->tools.counts.poured += volume;
+}
+
 static void emit(SporeWorld *world, SporeEmitter *emitter) {
   assert(emitter->body < world->body_count && spore_body_is_fluid(&world->bodies[emitter->body]));
   SporeBody *body = &world->bodies[emitter->body];
@@ -211,9 +221,14 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
   bool wound = fields->trigger == SPORE_FLOW_WOUND;
   if (wound && !bleeds(world, emitter)) return;
-  if (time_s < fields->start || body->frozen || body->held.count == body->held.pin_count) return;
+  bool none_left = !emitter->effect && body->held.count == body->held.pin_count;
+  if (time_s < fields->start || body->frozen || none_left) return;
   emitter->due = due_of(world, emitter, wound ? SPORE_FLOW_ALWAYS : fields->trigger);
   if (emitter->due < 1) return;
+  if (emitter->effect) {
+    seep(world, emitter);
+    return;
+  }
   if (spore_body_lies_still(body)) {
     spore_world_wake(world, emitter->body); /* it gets particles after the next step */
     return;
@@ -247,6 +262,8 @@ void spore_world_exchange_particles(SporeWorld *world) {
 
 static void begin(SporeEmitter *emitter) {
   emitter->due = 0, emitter->tries = 1;
+  emitter->effect = emitter->effect_at_start;
+  emitter->seeped = emitter->seen = 0;
   emitter->bleeds = false, emitter->marks = (SporeBodyMarks){0};
 }
 
@@ -326,7 +343,8 @@ static void set_flow(SporeEmitterFields *fields, double particle_volume) {
 }
 
 static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
-  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .fields = from->fields};
+  *emitter = (SporeEmitter){
+      .body = from->body, .source = from->source, .fields = from->fields, .effect_at_start = from->effect};
   begin(emitter);
   set_flow(&emitter->fields, world->bodies[from->body].model->particle_volume);
   spore_emitter_set_mouth(world, emitter, from->point, from->direction);

@@ -4,6 +4,7 @@
 #define SPORE_SIM_TOOL_H
 
 #include "core/sim/state/state.h"
+#include "core/sim/tool/seat.h"
 #include "core/sim/tool/tool_type.h"
 
 /* Base of every tool: the first member of the tool's own structure. */
@@ -13,23 +14,22 @@ typedef struct SporeTool {
   uint32_t bodies[SPORE_TOOL_BODIES]; /* as in the description */
   size_t spring_start, spring_count;  /* its springs in SporeLinkSystem.springs */
   SporeVec3 tip;                      /* where it acts, in the frame of its first body, m; `make` sets it */
+  bool effect, effect_at_start;       /* it is an effect now; at time 0 */
 } SporeTool;
-
-#define SPORE_NO_NODE UINT32_MAX
 
 /* A source of particles; see SporeEmitterDescription. */
 typedef struct SporeEmitter {
   uint32_t body, source;
   SporeVec3 point, direction; /* in the frame of the source; where that deforms, beside the node, as at time 0 */
-  uint32_t node;      /* of a source that deforms, the nearest to the mouth at time 0; SPORE_NO_NODE: it is rigid */
-  uint32_t beside[2]; /* nodes near that one, by which the mouth turns */
-  SporeMat3 triangle; /* of the three at time 0: along the first side, in the plane, and across it */
-  bool on_a_line;     /* the three are no triangle: the mouth turns by the first side alone */
+  SporeSeat seat;            /* of the mouth, by nodes of a source that deforms; without a point: the source is rigid */
   SporeEmitterFields fields; /* with the rate and the speed of its flow, where it has one */
   double due;                /* particles that the rate allows by now; whole ones are put */
-  bool bleeds;               /* of a wound: it was cut, and not coagulated since */
-  SporeBodyMarks marks;      /* of the source when that was found */
-  uint64_t tries;            /* state of the random numbers by which places in the mouth are chosen */
+  bool effect, effect_at_start; /* it is an effect now; at time 0 */
+  SporeVec3 rest;               /* middle of the mouth, in the frame of the source at rest, m */
+  double seeped, seen;          /* m^3 that came out as an effect; of it when stains were last looked at */
+  bool bleeds;                  /* of a wound: it was cut, and not coagulated since */
+  SporeBodyMarks marks;         /* of the source when that was found */
+  uint64_t tries;               /* state of the random numbers by which places in the mouth are chosen */
 } SporeEmitter;
 
 /* All tools and emitters of a world. */
@@ -47,6 +47,10 @@ bool spore_world_create_tools(SporeWorld *world, const SporeWorldDescription *de
 size_t spore_tools_spring_count(const SporeWorldDescription *description);
 void spore_world_reset_tools(SporeWorld *world);
 void spore_world_clear_tools(SporeWorld *world);
+/* Makes the tool an effect, or gives it back to physics, where its kind has both forms. */
+void spore_world_set_tool_effect(SporeWorld *world, size_t tool, bool on);
+/* Whether some tool moves the body as an effect, so that nothing feels it. */
+bool spore_world_is_led_by_effect(const SporeWorld *world, uint32_t body);
 /* The state of an active body was set from outside: its device is taken to stand there, and its tools follow. */
 void spore_world_follow_tools(SporeWorld *world, uint32_t body);
 /* Stage: tools act on the last good state. */

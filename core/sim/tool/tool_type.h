@@ -10,6 +10,7 @@
 
 struct SporeWorld;
 struct SporeTool;
+struct SporeSqueeze;
 /* A kind of tool. Defined below. */
 typedef struct SporeToolType SporeToolType;
 
@@ -19,6 +20,7 @@ typedef struct SporeToolDescription {
   const SporeToolType *type;
   uint32_t bodies[SPORE_TOOL_BODIES]; /* in the order of the type's parameters; SPORE_NO_BODY: none */
   const void *fields; /* the structure of type->parameters, which begins with SporeToolFields; borrowed */
+  bool effect;        /* it is an effect at time 0; the type has that form */
 } SporeToolDescription;
 
 /* First member of the fields of every kind. `body` and `device` are names in the scene's file. A world does not read
@@ -83,6 +85,10 @@ struct SporeToolType {
    * never is. */
   bool (*pinches)(const struct SporeWorld *world, const struct SporeTool *tool, uint32_t body, SporeVec3 place,
                   double distance);
+  /* The tool became an effect, or physical again, as tool->effect says. NULL: the kind has no form as an effect. */
+  void (*set_effect)(struct SporeWorld *world, struct SporeTool *tool);
+  /* What it draws squeezed; false: nothing. NULL: it never does. */
+  bool (*squeeze)(const struct SporeWorld *world, const struct SporeTool *tool, struct SporeSqueeze *squeeze);
 };
 
 /* What closes jaws. */

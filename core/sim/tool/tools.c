@@ -41,6 +41,7 @@ static SporeTool *make_tool(SporeWorld *world, const SporeToolDescription *from,
   memcpy(tool->bodies, from->bodies, sizeof tool->bodies);
   tool->spring_start = spring_start;
   tool->spring_count = spring_count(from);
+  tool->effect = tool->effect_at_start = from->effect && from->type->set_effect;
   return tool->name && from->type->make(world, tool, from) ? tool : NULL;
 }
 
@@ -93,11 +94,31 @@ static void count_tools(SporeWorld *world) {
 void spore_world_reset_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) {
     SporeTool *tool = world->tools.all[i];
+    tool->effect = tool->effect_at_start;
     if (tool->type->reset) tool->type->reset(world, tool);
   }
   for (size_t b = 0; b < world->body_count; b++) world->bodies[b].marks = (SporeBodyMarks){0};
   world->tools.counts.poured = 0;
   count_tools(world);
+}
+
+void spore_world_set_tool_effect(SporeWorld *world, size_t index, bool on) {
+  assert(index < world->tools.count);
+  SporeTool *tool = world->tools.all[index];
+  if (!tool->type->set_effect || tool->effect == on) return;
+  tool->effect = on;
+  tool->type->set_effect(world, tool);
+  spore_world_wake_all(world);
+  world->schedule.stale = true;
+}
+
+bool spore_world_is_led_by_effect(const SporeWorld *world, uint32_t body) {
+  for (size_t i = 0; i < world->tools.count; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    for (int part = 0; tool->effect && part < SPORE_TOOL_BODIES; part++)
+      if (tool->bodies[part] == body) return true;
+  }
+  return false;
 }
 
 void spore_world_follow_tools(SporeWorld *world, uint32_t index) {
@@ -170,6 +191,13 @@ size_t spore_world_tool_holds(const SporeWorld *world, size_t index, uint32_t bo
   return tool->type->holds ? tool->type->holds(world, tool, body) : 0;
 }
 
+size_t spore_world_emitter_count(const SporeWorld *world) { return world->tools.emitter_count; }
+
+bool spore_world_emitter_is_effect(const SporeWorld *world, size_t index) {
+  assert(index < world->tools.emitter_count);
+  return world->tools.emitters[index].effect;
+}
+
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }
 
 SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t index) {
@@ -182,6 +210,11 @@ SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t index) {
 const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t index) {
   assert(index < world->tools.count);
   return world->tools.all[index]->type;
+}
+
+bool spore_world_tool_is_effect(const SporeWorld *world, size_t index) {
+  assert(index < world->tools.count);
+  return world->tools.all[index]->effect;
 }
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
