@@ -65,8 +65,8 @@ struct _SporeWindow {
       *message_remedy, *recovery_bar, *recovery_text, *hold_bar, *hold_text, *hold_button, *missing_bar, *missing_text;
   SporeCause cause; /* of the message that is shown */
   GtkWidget *outliner, *viewport, *inspector, *problems, *plan, *accuracy, *plots, *timeline, *exercise, *guide,
-      *controls, *large_play, *large_play_image, *generator_panel, *middle, *bottom, *tabs, *log, *hint, *job_box,
-      *job_label, *job_bar;
+      *controls, *large_play, *large_play_image, *generator_panel, *middle, *bottom, *tab_row, *tab_switcher, *tabs,
+      *log, *hint, *job_box, *job_label, *job_bar;
 
   const SporeSchema *schema; /* borrowed from the application */
   char *scenes;              /* folder of the scenes that ship */
@@ -80,7 +80,7 @@ struct _SporeWindow {
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
-  GMenu *templates, *recent, *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds,
+  GMenu *templates, *recent, *link_kinds, *instrument_kinds, *fluid_kinds, *menu, *speeds, *all_tabs,
       *hands; /* hands: the instruments that can be led */
   SporePickDraft draft;
   SporeViewportPlaces picked; /* on the organ, so far */
@@ -240,6 +240,9 @@ void spore_window_add_export_actions(SporeWindow *self);
 void spore_window_add_mesh_actions(SporeWindow *self);
 /* files: NULL-terminated, or NULL: none yet. */
 void spore_window_show_import_dialog(SporeWindow *self, const char *const *files);
+
+/* spore-window-tabs.c: the tabs below the view. */
+void spore_window_add_tab_actions(SporeWindow *self);
 
 /* spore-window-search.c: finding what can be done. */
 void spore_window_add_search_action(SporeWindow *self);

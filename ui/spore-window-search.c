@@ -193,6 +193,7 @@ static GPtrArray *commands_of(SporeWindow *self) {
     add_command(self, commands, unlisted[i].action, NULL, _(unlisted[i].label));
   add_menu(self, commands, G_MENU_MODEL(self->menu), NULL);
   add_menu(self, commands, G_MENU_MODEL(self->speeds), _("Speed"));
+  add_menu(self, commands, G_MENU_MODEL(self->all_tabs), _("Tab"));
   add_menu(self, commands, G_MENU_MODEL(self->hands), _("Lead"));
   add_menu(self, commands, spore_exercise_panel_get_step_menu(SPORE_EXERCISE_PANEL(self->exercise)), _("Add step"));
   add_menu(self, commands, spore_exercise_panel_get_metric_menu(SPORE_EXERCISE_PANEL(self->exercise)), _("Add metric"));

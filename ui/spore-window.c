@@ -216,6 +216,8 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, middle);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, tab_row);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, tab_switcher);
   gtk_widget_class_bind_template_child(widget, SporeWindow, tabs);
   gtk_widget_class_bind_template_child(widget, SporeWindow, log);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hint);
@@ -225,6 +227,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
   gtk_widget_class_bind_template_child(widget, SporeWindow, menu);
   gtk_widget_class_bind_template_child(widget, SporeWindow, speeds);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, all_tabs);
   gtk_widget_class_bind_template_child(widget, SporeWindow, templates);
   gtk_widget_class_bind_template_child(widget, SporeWindow, recent);
   gtk_widget_class_bind_template_child(widget, SporeWindow, link_kinds);
@@ -267,6 +270,7 @@ static void spore_window_init(SporeWindow *self) {
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_viewport_set_messages(SPORE_VIEWPORT(self->viewport), self->messages);
   spore_viewport_set_controls(SPORE_VIEWPORT(self->viewport), self->controls);
+  spore_window_add_tab_actions(self);
   spore_window_add_search_action(self);
   spore_window_add_file_actions(self);
   spore_window_add_template_actions(self);

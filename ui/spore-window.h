@@ -50,7 +50,8 @@
  *               colours [s "none", "strain", "stress", "velocity" or "level"; state],
  *               keep-scale (state: of the colours), frame,
  *               view [s "camera", "front", "back", "right", "left", "top" or "bottom"],
- *               show-outliner, show-inspector, show-problems, present (state), show-guide (state: the steps of the
+ *               show-outliner, show-inspector, show-problems, show-tab [s name of a tab below the view],
+ *               present (state), show-guide (state: the steps of the
  *               exercise while present is on), filter, hide, isolate (the selected bodies),
  *               hide-or-show [s path of a body], show-all, lock (the selected bodies, or frees them),
  *               lock-or-unlock [s path of a body], unlock-all, measure [s "distance", "angle" or "volume"],

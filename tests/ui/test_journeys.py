@@ -1641,7 +1641,10 @@ def a_run_becomes_a_film():
 
 @check
 def panels_fit_a_small_window():
-    """in a window of 900 x 600 nothing of the beginning is cut off, and the generator's panel scrolls up and down alone, in French too."""
+    """in a window of 900 x 600 nothing of the beginning is cut off, the generator's panel scrolls up and down alone, and the window keeps its size, whatever is played and whichever tab is shown, in French too."""
+    def sizes(window):
+        return subprocess.run(["xdotool", "getwindowgeometry", window], capture_output=True, text=True).stdout.split("Geometry: ")[1].split()[0]
+
     for language in ("en", "fr"):
         with start(LANGUAGE=language) as editor:
             ids = ui.wait(lambda: subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(editor.process.pid)],
@@ -1663,6 +1666,17 @@ def panels_fit_a_small_window():
                 for node in editor.walk():
                     assert not (node.get_role_name() == "scroll bar" and editor.showing(node)
                                 and node.get_state_set().contains(editor.atspi.StateType.HORIZONTAL)), "a scroll bar lies"
+            editor.act("play")
+            editor.act("show-tab", "s", "plots")
+            ui.wait(lambda: re.match("Energy|Énergie", editor.chosen(editor.find("combo box", "^(Quantity|Grandeur)$"))), "a plot that is chosen by itself")
+            editor.act("pause")
+            row = editor.place(editor.find(".*", "^(Viewport|Vue)$"))
+            for tab, name in (("timeline", "Timeline|Déroulé"), ("exercise", "Exercise|Exercice"), ("log", "Log|Journal"), ("problems", "Pro")):
+                editor.act("show-tab", "s", tab)
+                inside_row = lambda: (lambda at: at[0] >= row[0] and at[0] + at[2] <= row[0] + row[2])(
+                    editor.place(editor.find("radio button", f"^({name})")))
+                ui.wait(inside_row, f"the tab {tab} to be seen")
+                assert sizes(ids[-1]) == "900x600", sizes(ids[-1])
 
 
 def within(inner, outer):

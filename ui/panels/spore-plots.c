@@ -13,6 +13,9 @@
 #include "ui/panels/spore-line-plot.h"
 
 #define REFRESH_MS 100
+/* Of a quantity's name. */
+#define CHOICE_LEAST_CHARS 8
+#define CHOICE_CHARS 30
 #define MOST_LINES SPORE_PLOT_COLOURS /* more cannot be told apart */
 
 /* Columns of a quantity that share a unit: one plot. */
@@ -133,8 +136,8 @@ static void fill_groups(SporePlots *self) {
     name_group(group, columns);
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(self->choice), group->id, group->label);
   }
-  if (!gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), self->chosen) && self->groups->len > 0)
-    gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), "energy");
+  const char *id = find_group(self, self->chosen) ? self->chosen : "energy";
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->choice), id);
   self->filling = FALSE;
 }
 
@@ -403,5 +406,6 @@ static void spore_plots_init(SporePlots *self) {
   self->points = g_ptr_array_new_with_free_func(g_free);
   self->labels = g_ptr_array_new_with_free_func(g_free);
   gtk_widget_init_template(GTK_WIDGET(self));
+  spore_combo_shrinks(self->choice, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   self->timer = g_timeout_add(REFRESH_MS, tick, self);
 }
