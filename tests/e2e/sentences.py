@@ -168,6 +168,17 @@ def jaws(kind, *bodies, left='jaw_a="left"', **rest):
                       (' tip="1.05 0 0"' if kind == "scissors" else ""), **rest)
 
 
+def clip(fidelity):
+    """A clamp, a clip where that is its fidelity."""
+    return jaws("clamp", stone()).replace('axis="0 0 1"/>', f'axis="0 0 1">{fidelity}</clamp>')
+
+
+def seeping(source, stain, fidelity=EFFECT):
+    fluid = f'<mechanical geometry="cube"><lennard_jones particles="60" stain="{stain}"/></mechanical>'
+    return scene(floor(), stone(fluid, position="0 1 0"),
+                 effects=f'<emitter name="e" body="stone" reserve="5" {source}>{fidelity}</emitter>')
+
+
 THREAD = body("b", '<mechanical geometry="line"><spline_1d/></mechanical>', position="1.02 0 0")
 
 
@@ -284,6 +295,10 @@ CHECK = [
      scene(tool(), tools='<probe name="t" device="m"/>', devices=MOUSE), scene(tool(), tools=PROBE, devices=MOUSE)),
     ("the tool \"%s\" has no device: nothing moves it", ["name a mouse or a track"],
      scene(tool(), tools='<probe name="t" body="tool"/>'), scene(tool(), tools=PROBE, devices=MOUSE)),
+    ("nothing is seen of \"%s\" as an effect: it has no source to stain, or its fluid stains nothing",
+     ["make the mode physical, and the fluid an effect if that is enough"], seeping("", 10), seeping('source="floor"', 10)),
+    ("nothing is seen of \"%s\" as an effect: it has no source to stain, or its fluid stains nothing", [], seeping('source="floor"', 0),
+     seeping('source="floor"', 10, fidelity="")),
     ("nothing comes out of the emitter \"%s\": it has no body", ["name a fluid of particles, or remove the emitter"],
      scene(stone(FLUID), effects='<emitter name="e"/>'),
      scene(stone(FLUID), effects='<emitter name="e" body="stone" reserve="5"/>')),
@@ -562,6 +577,8 @@ PLAN = [
      ["the nonlinear solver", "every body is integrated explicitly, and nothing touches or ties them"], ALONE, scene(stone(STONE), solver=VERLET)),
     ("effects move bodies in place of physics", [], scene(stone(SMOKE, EFFECT)), scene(stone(SMOKE))),
     ("physics moves all bodies that no device moves", [], scene(stone(SMOKE)), scene(stone(SMOKE, EFFECT))),
+    ("%s: an effect; --measure says what that saves\n", ["t: an effect"], clip(EFFECT), clip("")),
+    ("%s: an effect; --measure says what that saves\n", ["e: an effect"], seeping('source="floor"', 10), seeping('source="floor"', 10, fidelity="")),
     ("%s: an effect, which takes about %.3g us of a step; its physics would take %.3g us\n", ["stone: an effect"],
      scene(stone(SMOKE, EFFECT)), scene(stone(SMOKE))),
     ("left out: physics of effects (an effect moves these bodies)", ["physics of effects", "an effect moves these bodies"], scene(stone(SMOKE, EFFECT)),
@@ -633,6 +650,7 @@ PLAN = [
      ["take fewer control points or nodes, or a longer time_step"], sheet_of(60), sheet_of(10)),
 ]
 MEASURED = [
+    ("%s: an effect; over %.3g s a step takes %.3g us, with its physics %.3g us\n", ["t: an effect"], clip(EFFECT), clip("")),
     ("with nothing left out a step takes %.2f us instead of %.2f us (%.2f times as long, %.2f to %.2f in half of the steps)", [], FREE, None),
     ("; each of %zu steps gives the same state to the bit\n", [], FREE, None),
     ("; %.2f us a step to look at its bends, %.1f us when some come or go", [],
