@@ -378,6 +378,10 @@ static void act_report(GSimpleAction *action, GVariant *parameter, gpointer data
   spore_window_complain(data, g_variant_get_string(parameter, NULL));
 }
 
+static void act_close_message(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_close_message(data);
+}
+
 static void marks_changed(SporeWindow *self) {
   spore_viewport_set_marks(SPORE_VIEWPORT(self->viewport), spore_inspector_get_marks(SPORE_INSPECTOR(self->inspector)));
 }
@@ -480,6 +484,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"clear-measures", act_clear_measures},
       {"filter", act_filter},
       {"report", act_report, "s"},
+      {"close-message", act_close_message},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   g_signal_connect_object(self->accuracy, "study-changed", G_CALLBACK(study_changed), self, G_CONNECT_SWAPPED);

@@ -10,7 +10,9 @@
 static void exported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   const SporeExportWork *work = data;
-  if (spore_window_failed(self, error) || !work) return;
+  if (error) spore_window_wrote(self, NULL, error);
+  if (error || !work) return;
+  spore_window_mend(self, SPORE_CAUSE_FILE);
   g_autofree char *report = spore_export_work_report(work);
   spore_window_log(self, _("Exported %s"), work->output);
   spore_export_report_show(GTK_WINDOW(self), report);
@@ -19,7 +21,9 @@ static void exported(SporeJob *job, gpointer data, const GError *error, gpointer
 static void drawn(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   const SporeFilmWork *work = data;
-  if (spore_window_failed(self, error) || !work) return;
+  if (error) spore_window_wrote(self, NULL, error);
+  if (error || !work) return;
+  spore_window_mend(self, SPORE_CAUSE_FILE);
   g_autofree char *report = spore_film_work_report(work);
   spore_window_log(self, _("Exported %s"), work->file);
   spore_export_report_show(GTK_WINDOW(self), report);

@@ -163,12 +163,11 @@ char *spore_window_choose_to_open(SporeWindow *self, const char *title, const ch
 
 static gboolean save_to(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  if (!spore_editor_document_save(self->document, file, &error)) return !spore_window_failed(self, error);
+  if (!spore_editor_document_save(self->document, file, &error)) return spore_window_wrote(self, file, error);
   spore_recovery_keep(self->recovery, self->document, NULL);
   spore_window_keep_locks(self); /* under the names that bodies have now */
   spore_window_remember(spore_editor_document_get_save_file(self->document));
-  spore_window_log(self, _("Saved %s"), spore_editor_document_get_save_file(self->document));
-  return TRUE;
+  return spore_window_wrote(self, spore_editor_document_get_save_file(self->document), NULL);
 }
 
 static gboolean save_as(SporeWindow *self) {
@@ -326,7 +325,10 @@ static void save_recording(SporeWindow *self, const char *file) {
   size_t size;
   char *text = spore_track_format(track, &size);
   g_autoptr(GError) error = NULL;
-  if (text && !spore_write_file(file, text, size, &error)) spore_window_failed(self, error);
+  if (text) {
+    spore_write_file(file, text, size, &error);
+    spore_window_wrote(self, file, error);
+  }
   spore_free(text);
   spore_input_free(track);
 }
@@ -370,8 +372,8 @@ static void act_repeat_recording_dialog(GSimpleAction *action, GVariant *paramet
 
 static void save_numbers(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  if (spore_plots_save(SPORE_PLOTS(self->plots), file, &error)) spore_window_log(self, _("Saved %s"), file);
-  else spore_window_failed(self, error);
+  spore_plots_save(SPORE_PLOTS(self->plots), file, &error);
+  spore_window_wrote(self, file, error);
 }
 
 static void act_save_numbers(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -398,8 +400,8 @@ static void act_save_plot_dialog(GSimpleAction *action, GVariant *parameter, gpo
 
 static void save_plan(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  if (spore_plan_save(SPORE_PLAN(self->plan), file, &error)) spore_window_log(self, _("Saved %s"), file);
-  else spore_window_failed(self, error);
+  spore_plan_save(SPORE_PLAN(self->plan), file, &error);
+  spore_window_wrote(self, file, error);
 }
 
 static void act_save_plan(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -415,8 +417,8 @@ static void act_save_plan_dialog(GSimpleAction *action, GVariant *parameter, gpo
 
 static void save_study(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  if (spore_accuracy_save(SPORE_ACCURACY(self->accuracy), file, &error)) spore_window_log(self, _("Saved %s"), file);
-  else spore_window_failed(self, error);
+  spore_accuracy_save(SPORE_ACCURACY(self->accuracy), file, &error);
+  spore_window_wrote(self, file, error);
 }
 
 static void act_save_study(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -447,9 +449,8 @@ static void act_save_study_dialog(GSimpleAction *action, GVariant *parameter, gp
 
 static void save_exercise(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  gboolean saved = spore_exercise_panel_save(SPORE_EXERCISE_PANEL(self->exercise), file, &error);
-  if (saved) spore_window_log(self, _("Saved %s"), file);
-  else spore_window_failed(self, error);
+  spore_exercise_panel_save(SPORE_EXERCISE_PANEL(self->exercise), file, &error);
+  spore_window_wrote(self, file, error);
 }
 
 static void act_save_exercise(GSimpleAction *action, GVariant *parameter, gpointer data) {

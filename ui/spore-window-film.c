@@ -15,10 +15,11 @@ static double chosen_speed(SporeWindow *self) {
 static void filmed(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   const SporeFilmWork *work = data;
-  if (spore_window_failed(self, error)) return;
-  if (work)
-    spore_window_log(self, _("Saved %s: %llu pictures, %.2f s"), work->file, (unsigned long long)work->filmed.pictures,
-                     work->filmed.length_s);
+  if (error) spore_window_wrote(self, NULL, error);
+  if (error || !work) return;
+  spore_window_mend(self, SPORE_CAUSE_FILE);
+  spore_window_log(self, _("Saved %s: %llu pictures, %.2f s"), work->file, (unsigned long long)work->filmed.pictures,
+                   work->filmed.length_s);
 }
 
 static void film(SporeWindow *self, SporeFilmWork *work) {
@@ -91,9 +92,8 @@ static void act_film_attempts_dialog(GSimpleAction *action, GVariant *parameter,
 
 static void save_picture(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
-  if (spore_viewport_save_picture(SPORE_VIEWPORT(self->viewport), file, &error))
-    spore_window_log(self, _("Saved %s"), file);
-  else spore_window_failed(self, error);
+  spore_viewport_save_picture(SPORE_VIEWPORT(self->viewport), file, &error);
+  spore_window_wrote(self, file, error);
 }
 
 static void act_save_picture(GSimpleAction *action, GVariant *parameter, gpointer data) {

@@ -46,6 +46,7 @@ typedef guint64 Need;
 #define LOCKED NEED(32)
 #define MISSING NEED(31)
 #define POSE NEED(33)
+#define MESSAGE NEED(34)
 
 /* In the order in which they are told. */
 static const struct {
@@ -83,6 +84,7 @@ static const struct {
     {PORTS, N_("no instrument passes through a port yet; add one with the place where it enters")},
     {MISSING, N_("no file of the scene is missing")},
     {POSE, N_("no pose was kept yet")},
+    {MESSAGE, N_("no message is shown")},
     {EXERCISE, N_("the scene has no exercise yet; add a step in the Exercise tab")},
 };
 
@@ -93,6 +95,7 @@ static const struct {
 } needs[] = {
     {"fix", IDLE},
     {"fix-said", IDLE},
+    {"close-message", MESSAGE},
     {"undo", UNDO},
     {"redo", REDO},
     {"save", UNSAVED},
@@ -266,8 +269,14 @@ static Need of_scene(SporeWindow *self) {
                                           : 0);
 }
 
+static Need of_messages(SporeWindow *self) {
+  gboolean shown = gtk_widget_get_visible(self->message_bar) || gtk_widget_get_visible(self->missing_bar) ||
+                   gtk_widget_get_visible(self->hold_bar);
+  return shown ? MESSAGE : 0;
+}
+
 static Need there(SporeWindow *self) {
-  return of_history(self) | of_selection(self) | of_work(self) | of_run(self) | of_scene(self);
+  return of_messages(self) | of_history(self) | of_selection(self) | of_work(self) | of_run(self) | of_scene(self);
 }
 
 /* What generators' actions need is the same for all of them, but for label maps, which need no body. */

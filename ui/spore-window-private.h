@@ -57,6 +57,7 @@ typedef enum SporeCause {
   SPORE_CAUSE_WORK = 1 << 2,      /* something is being worked on */
   SPORE_CAUSE_SELECTION = 1 << 3, /* nothing fit is selected: until something else is */
   SPORE_CAUSE_PICK = 1 << 4,      /* a click was refused: until the next one */
+  SPORE_CAUSE_FILE = 1 << 5,      /* a file could not be written: until one is */
 } SporeCause;
 
 struct _SporeWindow {
@@ -126,6 +127,11 @@ void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(
 void spore_window_show_tab(SporeWindow *self, GtkWidget *what);
 /* Shows an error, unless the user cancelled. TRUE: there was an error. */
 gboolean spore_window_failed(SporeWindow *self, const GError *error);
+/* A file was written, which is logged, or was not: says why, unless the user cancelled. error: NULL: it was. Returns
+ * whether it was. */
+gboolean spore_window_wrote(SporeWindow *self, const char *file, const GError *error);
+/* Closes the message that lies on top. FALSE: there is none that can be closed. */
+gboolean spore_window_close_message(SporeWindow *self);
 /* Starts a job; only one runs at a time. FALSE, with data freed: another job is running, and the user is told. */
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done);

@@ -20,6 +20,7 @@ static const struct {
     {"app.reset-preferences", N_("Preferences: reset all")},
     {"win.fix", N_("Fix the selected problem")},
     {"win.fix-said", N_("Fix what the message tells of")},
+    {"win.close-message", N_("Close the message over the view")},
     {"win.undo", N_("Undo")},
     {"win.redo", N_("Redo")},
     {"win.play-pause", N_("Play or pause")},

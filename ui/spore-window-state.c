@@ -84,6 +84,30 @@ gboolean spore_window_failed(SporeWindow *self, const GError *error) {
   return error != NULL;
 }
 
+gboolean spore_window_wrote(SporeWindow *self, const char *file, const GError *error) {
+  if (error) {
+    SporeCause cause = SPORE_CAUSE_FILE;
+    if (g_error_matches(error, SPORE_ERROR, SPORE_ERROR_INPUT)) cause |= SPORE_CAUSE_EDIT;
+    if (!g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED))
+      spore_window_complain_while(self, cause, error->message, NULL, NULL);
+    return FALSE;
+  }
+  spore_window_mend(self, SPORE_CAUSE_FILE);
+  spore_window_log(self, _("Saved %s"), file);
+  return TRUE;
+}
+
+/* The bars that the user may close without an answer, from the topmost on. */
+gboolean spore_window_close_message(SporeWindow *self) {
+  GtkWidget *const bars[] = {self->message_bar, self->missing_bar, self->hold_bar};
+  for (guint i = 0; i < G_N_ELEMENTS(bars); i++) {
+    if (!gtk_widget_get_visible(bars[i])) continue;
+    gtk_info_bar_response(GTK_INFO_BAR(bars[i]), GTK_RESPONSE_CLOSE);
+    return TRUE;
+  }
+  return FALSE;
+}
+
 /* Jobs. */
 
 /* The job that is shown: one at a time, those that the user began by name first. */

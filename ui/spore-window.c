@@ -12,6 +12,22 @@
 
 G_DEFINE_FINAL_TYPE(SporeWindow, spore_window, GTK_TYPE_APPLICATION_WINDOW)
 
+/* Escape closes a message, where what has the focus has no use for it. */
+static gboolean key_left(GtkWidget *window, GdkEventKey *event, SporeWindow *self) {
+  return event->keyval == GDK_KEY_Escape && spore_window_close_message(self);
+}
+
+static void message_shown(SporeWindow *self) {
+  if (self->player) spore_window_update_actions(self); /* else the document is being put into the window */
+}
+
+static void follow_messages(SporeWindow *self) {
+  GtkWidget *const bars[] = {self->message_bar, self->missing_bar, self->hold_bar};
+  for (guint i = 0; i < G_N_ELEMENTS(bars); i++)
+    g_signal_connect_object(bars[i], "notify::visible", G_CALLBACK(message_shown), self, G_CONNECT_SWAPPED);
+  g_signal_connect_after(self, "key-press-event", G_CALLBACK(key_left), self);
+}
+
 static void message_closed(GtkInfoBar *bar, int response, SporeWindow *self) { gtk_widget_hide(GTK_WIDGET(bar)); }
 
 static void recovery_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
@@ -290,6 +306,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_exercise_actions(self);
   spore_window_add_generator_actions(self);
   spore_window_follow_recent(self);
+  follow_messages(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));
   self->monitor = g_timeout_add(MONITOR_MS, poll_monitor, self);

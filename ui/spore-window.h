@@ -59,7 +59,8 @@
  *               turn-optic [d degrees] (of the camera that is selected, looked through, or the first),
  *               wipe-lens (of the same),
  *               clear-measures, cut [s "none", "view", "x", "y" or "z"; state], cut-other-side (state)
- *   others      search (for any of these), open-menu, report [s message]; of the application:
+ *   others      search (for any of these), open-menu, report [s message], close-message (the one that is shown);
+ *               of the application:
  *               preferences, reset-preferences, look, language, turning, wheel, pictures, keeping [s choice,
  *               see document/preferences.c; state], new-window, about, quit
  *

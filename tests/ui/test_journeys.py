@@ -1506,7 +1506,7 @@ def mouse_takes_an_instrument_from_its_track():
 
 @check
 def the_view_becomes_a_picture():
-    """what the view shows is saved as a picture of its size, without the grid, from where it is seen."""
+    """what the view shows is saved as a picture of its size, without the grid, from where it is seen; that one could not be saved is said until one is, or till Escape."""
     pictures = [folder("pictures") / f"{view}.png" for view in ("camera", "right")]
     with start(SCENES / "minimal.spore") as editor:
         ui.wait(lambda: editor.row("ball"), "the scene")
@@ -1517,7 +1517,15 @@ def the_view_becomes_a_picture():
             ui.wait(picture.exists, "the picture")
         width, height = editor.place(editor.find(".*", "^Viewport$"))[2:]
         editor.act("save-picture", "s", str(folder("pictures") / "no" / "folder.png"))
-        ui.wait(lambda: "no/folder.png" in (editor.message() or ""), "the refusal of a place that is not there")
+        refused = lambda: "no/folder.png" in (editor.message() or "")
+        ui.wait(refused, "the refusal of a place that is not there")
+        editor.act("save-picture", "s", str(pictures[-1]))
+        ui.wait(lambda: not editor.message(), "the refusal to go as soon as a file is written")
+        editor.act("save-picture", "s", str(folder("pictures") / "no" / "folder.png"))
+        ui.wait(refused, "the refusal again")
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.message() and not editor.enabled("close-message"), "Escape to close it")
     rows = [picture_files.png(picture) for picture in pictures]
     assert {(len(one), len(one[0])) for one in rows} == {(height, 3 * width)} and rows[0] != rows[1]
 

@@ -291,6 +291,11 @@ static gboolean has_whole_screen(GtkWidget *area) {
   return window && gdk_window_get_state(window) & GDK_WINDOW_STATE_FULLSCREEN;
 }
 
+static gboolean has_message(GtkWidget *area) {
+  GtkWidget *window = gtk_widget_get_toplevel(area);
+  return G_IS_ACTION_GROUP(window) && g_action_group_get_action_enabled(G_ACTION_GROUP(window), "close-message");
+}
+
 /* Keys of the view that are actions of the window. */
 static const struct {
   guint key;
@@ -372,6 +377,7 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     if (self->boxing) spore_activate(area, "box-select", NULL);
     else if (self->picking) spore_activate(area, "pick-back", NULL);
     else if (spore_viewport_measures_back(self)) break;
+    else if (has_message(area)) spore_activate(area, "close-message", NULL);
     else if (has_whole_screen(area)) spore_activate(area, "present", NULL);
     else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
     break;
