@@ -1674,7 +1674,11 @@ def panels_fit_a_small_window():
                 for node in editor.walk():
                     assert not (node.get_role_name() == "scroll bar" and editor.showing(node)
                                 and node.get_state_set().contains(editor.atspi.StateType.HORIZONTAL)), "a scroll bar lies"
+            editor.act("show-figures")
             editor.act("play")
+            told = ui.wait(lambda: editor.look("label", "^(Time|Temps) .*\n(Step|Pas) "), "the figures")
+            last_row = editor.place(editor.find("toggle button", "^(Figures|Chiffres)$"))
+            ui.wait(lambda: editor.place(told)[1] >= last_row[1] + last_row[3], "the figures to stand below the buttons")
             editor.act("show-tab", "s", "plots")
             ui.wait(lambda: re.match("Energy|Énergie", editor.chosen(editor.find("combo box", "^(Quantity|Grandeur)$"))), "a plot that is chosen by itself")
             editor.act("pause")

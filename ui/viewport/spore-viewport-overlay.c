@@ -1,21 +1,13 @@
-/* What is drawn and written over the picture: forces, the legend of colours, and figures of the simulation. */
+/* What is drawn and written over the picture: forces, legends, and figures of the simulation. */
 #include <glib/gi18n.h>
 #include <math.h>
 
 #include "core/scene/length_unit.h"
 #include "ui/document/labels.h"
 #include "ui/jobs/loop-gaps.h"
-#include "ui/render/colour_scale.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define MOST_LEVELS 4 /* bodies in the corner */
-#define LEGEND_WIDTH 200
-#define LEGEND_MARGIN 22
-#define LEGEND_HEIGHT 48
-#define LEGEND_LINE 18
-#define LEGEND_SCALE 31 /* the bar, and what stands at its ends */
-#define KEY_PIXELS 9
-#define LEGEND_GAP 28 /* between two */
 #define ARROW_PIXELS_A_NEWTON 40.0
 #define ARROW_LONGEST_PIXELS 160.0
 
@@ -62,176 +54,10 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
 }
 
-/* A legend: what is measured, the colours, the ends of their scale, and notes below. */
-typedef struct Legend {
-  const char *label, *low, *high; /* low, high: NULL: there are no ends */
-  const char *notes[2];           /* NULL: none */
-  gboolean scale;                 /* a bar of the scale's colours, or of the tint where `tint` */
-  gboolean tint;
-  guint key_count;
-  const SporeStageKey *keys; /* what a colour each means, above the notes */
-} Legend;
-
-/* Lines of text below the label or the bar. */
-static int count_lines(const Legend *legend) {
-  return (int)legend->key_count + (legend->notes[0] != NULL) + (legend->notes[1] != NULL);
-}
-
-static int count_notes(const Legend *legend) { return (legend->notes[0] != NULL) + (legend->notes[1] != NULL); }
-
-static gboolean has_bar(const Legend *legend) { return legend->scale || legend->tint; }
-
-/* Of the notes, and of what is missing above them. */
-static int height_below(const Legend *legend) {
-  return count_lines(legend) * LEGEND_LINE - (has_bar(legend) ? 0 : LEGEND_SCALE);
-}
-
-/* A dark box for a legend, at the lower right, above messages and notice, and beside the second view. FALSE: there is
- * no room. */
-static gboolean place_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend,
-                             double *left, double *top) {
-  int notes = height_below(legend);
-  if (gtk_widget_get_visible(self->second)) width -= gtk_widget_get_allocated_width(self->second);
-  else if (gtk_widget_get_visible(self->notice)) height -= gtk_widget_get_allocated_height(self->notice);
-  height -= gtk_widget_get_allocated_height(self->messages);
-  *left = width - LEGEND_WIDTH - LEGEND_MARGIN, *top = height - LEGEND_HEIGHT - notes;
-  if (width < LEGEND_WIDTH + 2 * LEGEND_MARGIN) return FALSE;
-  cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
-  cairo_rectangle(cr, *left - 10, *top - 26, LEGEND_WIDTH + 20, LEGEND_HEIGHT + 14 + notes);
-  cairo_fill(cr);
-  return TRUE;
-}
-
-/* align: share of the legend's width that is left free before the text. */
-static void write_legend(SporeViewport *self, cairo_t *cr, const char *text, double x, double y, double align) {
-  int wide;
-  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, text);
-  pango_layout_get_pixel_size(layout, &wide, NULL);
-  if (wide > LEGEND_WIDTH) {
-    pango_layout_set_width(layout, LEGEND_WIDTH * PANGO_SCALE);
-    pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_MIDDLE);
-    wide = LEGEND_WIDTH;
-  }
-  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
-  cairo_move_to(cr, x + align * (LEGEND_WIDTH - wide), y);
-  pango_cairo_show_layout(cr, layout);
-}
-
-static void draw_bar(cairo_t *cr, const Legend *legend, double left, double top) {
-  for (int i = 0; i < LEGEND_WIDTH; i++) {
-    double colour[3];
-    spore_colour_scale((double)i / LEGEND_WIDTH, colour);
-    const double *shown = legend->tint ? spore_tint_colour : colour;
-    cairo_set_source_rgb(cr, shown[0], shown[1], shown[2]);
-    cairo_rectangle(cr, left + i, top, 1, 10);
-    cairo_fill(cr);
-  }
-}
-
-/* A patch of the colour, and what the colour means. */
-static void draw_key(SporeViewport *self, cairo_t *cr, const SporeStageKey *key, double left, double top) {
-  cairo_set_source_rgb(cr, key->colour[0], key->colour[1], key->colour[2]);
-  cairo_rectangle(cr, left, top + 5, KEY_PIXELS, KEY_PIXELS);
-  cairo_fill(cr);
-  write_legend(self, cr, key->text, left + 2 * KEY_PIXELS, top, 0);
-}
-
-/* Returns the height that the legend takes. */
-static int draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const Legend *legend) {
-  double left, top;
-  if (!place_legend(self, cr, width, height, legend, &left, &top)) return 0;
-  gboolean bar = has_bar(legend);
-  double below = bar ? top + 13 : top;
-  if (bar) draw_bar(cr, legend, left, top);
-  write_legend(self, cr, legend->label, left, top - 21, 0);
-  if (legend->low) write_legend(self, cr, legend->low, left, below, 0);
-  if (legend->high) write_legend(self, cr, legend->high, left, below, 1);
-  for (guint i = 0; i < legend->key_count; i++, below += LEGEND_LINE) draw_key(self, cr, &legend->keys[i], left, below);
-  for (int i = 0; i < count_notes(legend); i++)
-    write_legend(self, cr, legend->notes[i], left, below + (i + (legend->low || legend->high ? 1 : 0)) * LEGEND_LINE,
-                 0);
-  return LEGEND_HEIGHT + LEGEND_GAP + height_below(legend);
-}
-
-/* Whoever does not see the colours reads what they say at the button that shows them. */
-static void tell_at(GtkWidget *shower, const SporeStageLegend *legend) {
-  AtkObject *button = gtk_widget_get_accessible(shower);
-  g_autofree char *text = legend ? spore_stage_legend_text(legend) : g_strdup("");
-  if (g_strcmp0(atk_object_get_description(button), text) != 0) atk_object_set_description(button, text);
-}
-
-/* Each returns the height that its legend takes, 0: there is none to draw. */
-
-static int draw_stage_legend(SporeViewport *self, cairo_t *cr, int width, int height, const SporeStageLegend *of) {
-  Legend legend = {.label = of->label, .low = of->high ? of->low : NULL, .high = of->high, .scale = of->high != NULL};
-  legend.key_count = of->key_count, legend.keys = of->keys;
-  guint notes = 0;
-  if (of->range) legend.notes[notes++] = of->range;
-  if (of->without) legend.notes[notes++] = of->without;
-  return draw_legend(self, cr, width, height, &legend);
-}
-
-static int draw_field_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend field;
-  gboolean shown = self->stage && spore_stage_legend(self->stage, &field);
-  tell_at(self->colours_button, shown ? &field : NULL);
-  if (!shown) return 0;
-  int taken = draw_stage_legend(self, cr, width, height, &field);
-  spore_stage_legend_clear(&field);
-  return taken;
-}
-
-static int draw_sphere_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend spheres;
-  if (!self->stage || !spore_stage_sphere_legend(self->stage, &spheres)) return 0;
-  int taken = draw_stage_legend(self, cr, width, height, &spheres);
-  spore_stage_legend_clear(&spheres);
-  return taken;
-}
-
-static int draw_contact_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend contacts;
-  if (!self->stage || !spore_stage_contact_legend(self->stage, &contacts)) return 0;
-  int taken = draw_stage_legend(self, cr, width, height, &contacts);
-  spore_stage_legend_clear(&contacts);
-  return taken;
-}
-
-static int draw_link_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend links;
-  gboolean shown = self->stage && spore_stage_link_legend(self->stage, &links);
-  tell_at(self->links_button, shown ? &links : NULL);
-  if (!shown) return 0;
-  int taken = draw_stage_legend(self, cr, width, height, &links);
-  spore_stage_legend_clear(&links);
-  return taken;
-}
-
-static int draw_reach_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
-  SporeStageLegend reach;
-  if (!spore_viewport_reach_legend(self, &reach)) return 0;
-  Legend legend = {.label = reach.label, .notes = {reach.range}, .tint = TRUE};
-  int taken = draw_legend(self, cr, width, height, &legend);
-  spore_stage_legend_clear(&reach);
-  return taken;
-}
-
-/* Draws the legends of all that is shown, one above the other; those of what a candidate hides are left out. */
-static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
-  static int (*const kinds[])(SporeViewport * self, cairo_t * cr, int width, int height) = {
-      draw_field_legend, draw_sphere_legend, draw_reach_legend, draw_contact_legend, draw_link_legend};
-  Legend legend = {.label = self->legend, .low = "0", .high = self->legend_high, .scale = TRUE};
-  if (self->legend) {
-    draw_legend(self, cr, width, height, &legend);
-    return;
-  }
-  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) height -= kinds[i](self, cr, width, height);
-}
-
 void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_force(self, cr, width, height);
   draw_pull(self, cr, width, height);
-  draw_legends(self, cr, width, height);
+  spore_viewport_legends_draw(self, cr, width, height);
 }
 
 /* Figures in the corner. */
@@ -409,13 +235,28 @@ static void append_run(GString *text, SporeViewport *self, SporeSession *session
   if (self->figures) append_figures(text, self, session, snapshot, &figures);
 }
 
+/* What has no room below the tools is left out, from the end on. */
+static void show_figures(SporeViewport *self, GString *text) {
+  int room = gtk_widget_get_allocated_height(self->area) - gtk_widget_get_allocated_height(self->tools) -
+             gtk_widget_get_margin_top(self->tools);
+  int width = gtk_widget_get_allocated_width(self->area), height;
+  gtk_label_set_text(GTK_LABEL(self->hud), text->str);
+  gtk_widget_get_preferred_height_for_width(self->hud, width, &height, NULL); /* with its margins */
+  for (char *end = strrchr(text->str, '\n'); end && height > room; end = strrchr(text->str, '\n')) {
+    *end = '\0';
+    g_autofree char *shorter = g_strconcat(text->str, "\n…", NULL);
+    gtk_label_set_text(GTK_LABEL(self->hud), shorter);
+    gtk_widget_get_preferred_height_for_width(self->hud, width, &height, NULL);
+  }
+}
+
 void spore_viewport_overlay_update(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   g_autoptr(GString) text = g_string_new(NULL);
   if (session) append_run(text, self, session);
   append_sharpness(text, self);
   gtk_widget_set_visible(self->hud, text->len > 0);
-  if (text->len > 0) gtk_label_set_text(GTK_LABEL(self->hud), text->str);
+  if (text->len > 0) show_figures(self, text);
 }
 
 void spore_viewport_set_figures(SporeViewport *self, gboolean figures) {

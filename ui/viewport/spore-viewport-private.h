@@ -329,6 +329,10 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
 /* Ends a drag without taking it back. */
 void spore_viewport_end_drag(SporeViewport *self);
 
+/* spore-viewport-legends.c: what colours mean. */
+/* Lays the legends of what is shown beside all that lies over the picture. */
+void spore_viewport_legends_draw(SporeViewport *self, cairo_t *cr, int width, int height);
+
 /* spore-viewport-overlay.c: over the picture. */
 void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height);
 /* The figures of the simulation, in a corner. */

@@ -146,8 +146,6 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
          spore_png_write(file, pixels, options.width, options.height, stride, error);
 }
 
-static gboolean place_overlays(gpointer data);
-
 /* Where the view is narrower than a row of buttons, these are set in smaller letters: none is cut off. */
 static void fit_buttons(SporeViewport *self) {
   GtkStyleContext *style = gtk_widget_get_style_context(GTK_WIDGET(self));
@@ -161,28 +159,36 @@ static void fit_buttons(SporeViewport *self) {
   if (narrow == (self->buttons_width > gtk_widget_get_allocated_width(self->area))) return;
   if (narrow) gtk_style_context_remove_class(style, "narrow");
   else gtk_style_context_add_class(style, "narrow");
-  g_idle_add(place_overlays, g_object_ref(self)); /* once the letters have their size */
 }
 
-/* The choice of what is shown stands beside the first row of tools that leaves room for it, or below both. */
+/* The choice of what is shown stands beside the first row of tools that leaves room for it, or below both. The cube
+ * stands below that choice, or above it beside the tools. */
 static gboolean place_overlays(gpointer data) {
   g_autoptr(SporeViewport) self = data;
   GtkWidget *const rows[] = {self->tool_row, self->look_row};
-  int overlays, width, height, margin = gtk_widget_get_margin_start(self->tools), top = margin;
+  int overlays, cube, width, widest = 0, height, margin = gtk_widget_get_margin_start(self->tools), top = margin;
+  int whole = gtk_widget_get_allocated_width(self->area);
+  gboolean beside = FALSE;
   fit_buttons(self);
   gtk_widget_get_preferred_width(self->overlays, NULL, &overlays); /* with its margins */
-  for (guint i = 0; i < G_N_ELEMENTS(rows); i++) {
+  gtk_widget_get_preferred_width(self->axes, NULL, &cube);         /* so, too */
+  for (guint i = 0; i < G_N_ELEMENTS(rows) && !beside; i++) {
     gtk_widget_get_preferred_width(rows[i], NULL, &width);
     gtk_widget_get_preferred_height(rows[i], NULL, &height);
-    if (width + overlays + margin <= gtk_widget_get_allocated_width(self->area)) break;
-    top += height + gtk_box_get_spacing(GTK_BOX(self->tools));
+    widest = MAX(widest, width);
+    beside = width + overlays + margin <= whole;
+    if (!beside) top += height + gtk_box_get_spacing(GTK_BOX(self->tools));
   }
   gtk_widget_set_margin_top(self->overlays, top);
   spore_viewport_size_second(self);
   gtk_widget_get_preferred_height(self->overlays, NULL, &height); /* with its margins */
-  gtk_widget_set_margin_top(self->axes, height - margin);
+  gtk_widget_set_margin_top(self->axes, beside || margin + widest + cube > whole ? height - margin : margin);
   spore_viewport_fit_welcome(self, height);
   return G_SOURCE_REMOVE;
+}
+
+static void tools_sized(GtkWidget *tools, GdkRectangle *allocation, SporeViewport *self) {
+  g_idle_add_full(G_PRIORITY_HIGH_IDLE, place_overlays, g_object_ref(self), NULL); /* not during size allocation */
 }
 
 static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) {
@@ -480,6 +486,8 @@ static void spore_viewport_init(SporeViewport *self) {
   self->camera = spore_viewport_beginning();
   gtk_widget_init_template(GTK_WIDGET(self));
   gtk_overlay_set_overlay_pass_through(GTK_OVERLAY(self), self->foot, TRUE);
+  g_signal_connect_object(self->tools, "size-allocate", G_CALLBACK(tools_sized), self, 0);
+  g_signal_connect_object(self->hud, "size-allocate", G_CALLBACK(gtk_widget_queue_draw), self->area, G_CONNECT_SWAPPED);
   spore_ignore_wheel(self->cut_slider);
   spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
   g_signal_connect(self, "measuring", G_CALLBACK(light_tool), NULL);
