@@ -2,7 +2,7 @@
  *
  * GTK 3 knows of its own settings alone. Desktops tell what the user likes through the portal's settings
  * (org.freedesktop.appearance color-scheme: 1 dark, 2 light, 0 as it comes); where there is no portal, GTK's
- * settings stay as the system gave them. The room around the scene stays dark either way. */
+ * settings stay as the system gave them. The view follows the theme that comes of it. */
 #include "ui/spore-look.h"
 
 #define PREFERENCE "look"

@@ -2385,17 +2385,30 @@ def is_dark(editor, heading="Gravity"):
     return sum(map(int, colour.split(","))) / 3 > 32768 if colour else None
 
 
+def is_dark_room(editor):
+    """Whether the view is darker than grey in its lower corner, where nothing stands."""
+    x, y, width, height = editor.place(editor.drawn_view())
+    pixels = on_screen(x + 4, y + height - 8, 4, 4).get_pixels()
+    return sum(pixels) / len(pixels) < 128
+
+
 @check
 def dark_and_light_follow_the_system():
-    """windows are dark or light as the desktop says, also when it changes its mind, or as the user chose, which is kept."""
+    """windows are dark or light as the desktop says, also when it changes its mind, or as the user chose, which is kept; so is the room around the scene, which is dark where the view is presented."""
     choices = str(folder("look"))
     with Desktop(1) as desktop:
         with start(XDG_CONFIG_HOME=choices) as editor:
             ui.wait(lambda: is_dark(editor) is True, "dark windows")
+            ui.wait(lambda: is_dark_room(editor), "a dark room")
             keep_picture(editor, "dark")
             desktop.change(2)
             ui.wait(lambda: is_dark(editor) is False, "light windows")
+            ui.wait(lambda: not is_dark_room(editor), "a light room")
             keep_picture(editor, "light")
+            editor.act("present")
+            ui.wait(lambda: is_dark_room(editor), "a dark room to work in")
+            editor.act("present")
+            ui.wait(lambda: not is_dark_room(editor), "the light room again")
             editor.act_on_program("look", "s", "dark")
             ui.wait(lambda: is_dark(editor) is True, "what was chosen")
         with start(XDG_CONFIG_HOME=choices) as editor:
@@ -3224,6 +3237,7 @@ def search_for_a_command():
 def messages_go_with_their_cause():
     """a message goes when what it is about is over, and offers the remedy; one tool is lit, also when another is refused, and none while something is picked."""
     with start(two_balls("messages")) as editor:
+        editor.act_on_program("look", "s", "dark")  # a message is light
         left, right, above = on_balls(editor)
 
         def lit():

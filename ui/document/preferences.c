@@ -12,7 +12,7 @@
 const SporePreference spore_preferences[] = {
     {.name = "look",
      .label = N_("Windows"),
-     .doc = N_("Dark or light; the room around the scene is dark either way"),
+     .doc = N_("Dark or light, and the room around the scene with them"),
      .choices = {{"system", N_("As the system has it")}, {"light", N_("Light windows")}, {"dark", N_("Dark windows")}}},
     {.name = "language",
      .label = N_("Language"),

@@ -105,6 +105,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, const Spo
   }
   frame->far *= 1.01;
   frame->coarse = options->coarse;
+  frame->light = options->light;
   frame->line_scale = (float)MAX(options->scale, 1);
   frame->near = MAX(frame->near * 0.99, frame->far * 3e-4);
 

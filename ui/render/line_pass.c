@@ -5,6 +5,12 @@
 #include "ui/render/passes.h"
 
 #define HIDDEN_ALPHA 0.22f
+/* In a light room, bright lines lie on wider dark ones; those that are too thin for that are darker themselves. */
+#define EDGED_WIDTH 1.7f
+#define EDGE_PIXELS 2.0f
+#define EDGE_ALPHA 0.6f
+#define BRIGHT 0.6f /* mean of a colour's channels */
+#define DARKER 0.25f
 
 SporeLineGroup *spore_line_group_new(const double *points, gsize count, const float colour[3], float width) {
   SporeLineGroup *group = g_new0(SporeLineGroup, 1);
@@ -37,18 +43,32 @@ void spore_line_group_move(SporeLineGroup *group, const double *points, gsize co
   g_free(moved);
 }
 
+static gboolean is_bright(const SporeLineGroup *group) {
+  return (group->colour[0] + group->colour[1] + group->colour[2]) / 3 > BRIGHT;
+}
+
+static void draw_group(const SporeLineGroup *group, const SporeProgram *program, const float colour[3], float width,
+                       float alpha) {
+  glUniform3fv(program->colour, 1, colour);
+  glUniform1f(program->width, width);
+  glUniform1f(program->fade, group->fade);
+  glUniform1f(program->dim, alpha);
+  glBindVertexArray(group->vertex_array);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)group->count);
+}
+
 static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const SporeProgram *program, gboolean hidden) {
   for (guint i = 0; i < drawables->len; i++) {
     const SporeDrawable *drawable = drawables->pdata[i];
     if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_LINES) continue;
     const SporeLineGroup *group = (const SporeLineGroup *)drawable;
     spore_drawable_set_offset(drawable, frame, program->offset);
-    glUniform3fv(program->colour, 1, group->colour);
-    glUniform1f(program->width, group->width * frame->line_scale);
-    glUniform1f(program->fade, group->fade);
-    glUniform1f(program->dim, hidden ? group->hidden : 1);
-    glBindVertexArray(group->vertex_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)group->count);
+    static const float edge[3] = {0.01f, 0.01f, 0.01f};
+    float colour[3], shade = frame->light && group->width < EDGED_WIDTH && is_bright(group) ? DARKER : 1;
+    for (int k = 0; k < 3; k++) colour[k] = shade * group->colour[k];
+    if (frame->light && !hidden && group->width >= EDGED_WIDTH)
+      draw_group(group, program, edge, (group->width + EDGE_PIXELS) * frame->line_scale, EDGE_ALPHA);
+    draw_group(group, program, colour, group->width * frame->line_scale, hidden ? group->hidden : 1);
   }
 }
 
@@ -81,12 +101,15 @@ gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
 
 enum { GRID_FINE, GRID_COARSE, GRID_X, GRID_Z, GRID_GROUPS };
 
+/* In a dark room, and in a light one. */
+static const float grid_colours[2][GRID_GROUPS][3] = {
+    {{0.045f, 0.042f, 0.042f}, {0.085f, 0.080f, 0.080f}, {0.42f, 0.06f, 0.06f}, {0.06f, 0.14f, 0.50f}},
+    {{0.42f, 0.43f, 0.45f}, {0.20f, 0.21f, 0.22f}, {0.62f, 0.05f, 0.05f}, {0.06f, 0.14f, 0.62f}}};
+
 GPtrArray *spore_grid_new(void) {
-  static const float colours[GRID_GROUPS][3] = {
-      {0.045f, 0.042f, 0.042f}, {0.085f, 0.080f, 0.080f}, {0.42f, 0.06f, 0.06f}, {0.06f, 0.14f, 0.50f}};
   GPtrArray *grid = g_ptr_array_new();
   for (int i = 0; i < GRID_GROUPS; i++)
-    g_ptr_array_add(grid, spore_line_group_new(NULL, 0, colours[i], i < GRID_X ? 1.0f : 1.6f));
+    g_ptr_array_add(grid, spore_line_group_new(NULL, 0, grid_colours[0][i], i < GRID_X ? 1.0f : 1.6f));
   return grid;
 }
 
@@ -102,7 +125,11 @@ static void set_group(GPtrArray *grid, guint group, GArray *points, double fade)
   g_array_set_size(points, 0);
 }
 
-void spore_grid_update(GPtrArray *grid, const SporeCamera *camera) {
+void spore_grid_update(GPtrArray *grid, const SporeCamera *camera, gboolean light) {
+  for (int i = 0; i < GRID_GROUPS; i++) {
+    SporeLineGroup *lines = grid->pdata[i];
+    memcpy(lines->colour, grid_colours[light ? 1 : 0][i], sizeof lines->colour);
+  }
   double cell = pow(10, floor(log10(camera->distance * 0.35))), reach = GRID_CELLS * cell;
   double fade = 2.2 * camera->distance + reach * 0.5;
   long middle_x = lround(camera->target.x / cell), middle_z = lround(camera->target.z / cell);

@@ -74,6 +74,7 @@ typedef struct SporeFrame {
   SporeVec3 eye;    /* world, m */
   double near, far; /* m */
   gboolean coarse;  /* fine surfaces are drawn with fewer triangles */
+  gboolean light;   /* the room is; see SporeRenderOptions */
   float line_scale; /* pixels in one of a line's width */
   SporeClip clip;   /* in the world */
   gboolean clips;   /* something may be hidden by the plane */
@@ -213,7 +214,7 @@ gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
 
 /* Floor grid and axes at y = 0 about what the camera looks at; a list of line groups. */
 GPtrArray *spore_grid_new(void);
-void spore_grid_update(GPtrArray *grid, const SporeCamera *camera);
+void spore_grid_update(GPtrArray *grid, const SporeCamera *camera, gboolean light);
 
 /* Framebuffer with a texture or renderbuffer for colour and for depth. */
 typedef struct SporeTarget {

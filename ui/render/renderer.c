@@ -370,7 +370,7 @@ gboolean spore_renderer_begin(SporeRenderer *renderer, const SporeCamera *camera
   forget_begun(renderer);
   while (glGetError() != GL_NO_ERROR) {
   }
-  if (options->grid) spore_grid_update(renderer->canvas.grid, camera);
+  if (options->grid) spore_grid_update(renderer->canvas.grid, camera, options->light);
   set_state();
   if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, error))
     return FALSE;

@@ -102,12 +102,12 @@ static void draw_letter(SporeViewport *self, cairo_t *cr, const char *text, doub
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->axes, text);
   pango_layout_get_pixel_size(layout, &width, &height);
   cairo_move_to(cr, x - 0.5 * width, y - 0.5 * height);
-  cairo_set_source_rgb(cr, 0.95, 0.96, 0.97);
+  spore_viewport_set_letters(self, cr);
   pango_cairo_show_layout(cr, layout);
 }
 
 static void draw_face(SporeViewport *self, cairo_t *cr, const Sight *sight, const Face *face, gboolean anatomic) {
-  double at[2], shade = 0.16 + 0.16 * facing(sight, face);
+  double at[2], shade = (self->light ? 0.76 : 0.16) + 0.16 * facing(sight, face);
   SporeVec3 middle = spore_vec3_scale(HALF_EDGE, face->out);
   gboolean pointed = self->pointed_view && g_str_equal(self->pointed_view, face->view);
   for (int k = 0; k < 4; k++) {
@@ -116,10 +116,12 @@ static void draw_face(SporeViewport *self, cairo_t *cr, const Sight *sight, cons
     else cairo_line_to(cr, at[0], at[1]);
   }
   cairo_close_path(cr);
-  if (pointed) cairo_set_source_rgba(cr, 0.17, 0.42, 0.72, 0.95);
+  if (pointed && self->light) cairo_set_source_rgba(cr, 0.6, 0.78, 0.98, 0.95);
+  else if (pointed) cairo_set_source_rgba(cr, 0.17, 0.42, 0.72, 0.95);
   else cairo_set_source_rgba(cr, shade, shade, shade + 0.02, 0.85);
   cairo_fill_preserve(cr);
-  cairo_set_source_rgba(cr, 0.75, 0.77, 0.8, 0.9);
+  if (self->light) cairo_set_source_rgba(cr, 0.32, 0.34, 0.37, 0.9);
+  else cairo_set_source_rgba(cr, 0.75, 0.77, 0.8, 0.9);
   cairo_set_line_width(cr, 1);
   cairo_stroke(cr);
   if (facing(sight, face) > 3 * SEEN)

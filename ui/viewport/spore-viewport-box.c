@@ -59,7 +59,8 @@ void spore_viewport_box_draw(SporeViewport *self, cairo_t *cr) {
   cairo_rectangle(cr, self->pressed_x, self->pressed_y, self->last_x - self->pressed_x, self->last_y - self->pressed_y);
   cairo_set_source_rgba(cr, 0.35, 0.6, 1, 0.18);
   cairo_fill_preserve(cr);
-  cairo_set_source_rgb(cr, 0.75, 0.86, 1);
+  if (self->light) cairo_set_source_rgb(cr, 0.1, 0.3, 0.7);
+  else cairo_set_source_rgb(cr, 0.75, 0.86, 1);
   cairo_set_line_width(cr, 1.5);
   if (takes_touched(self)) cairo_set_dash(cr, dashes, G_N_ELEMENTS(dashes), 0);
   cairo_stroke(cr);

@@ -113,7 +113,10 @@ static void draw_dabs(SporeViewport *self, cairo_t *cr) {
     cairo_new_path(cr);
     cairo_arc(cr, x, y, DOT_PIXELS, 0, 2 * G_PI);
     cairo_set_source_rgba(cr, 1, 1, 1, 0.6);
-    cairo_fill(cr);
+    cairo_fill_preserve(cr);
+    cairo_set_source_rgba(cr, 0, 0, 0, 0.5);
+    cairo_set_line_width(cr, 1);
+    cairo_stroke(cr);
   }
 }
 
@@ -123,13 +126,9 @@ void spore_viewport_brush_draw(SporeViewport *self, cairo_t *cr) {
   draw_dabs(self, cr);
   if (!place_under(self, self->last_x, self->last_y, &now, &at_rest)) return;
   double radius = pixels_at(self, now);
-  for (int pass = 0; pass < 2; pass++) { /* dark below bright: seen on every tissue */
-    cairo_new_path(cr);
-    cairo_arc(cr, self->last_x, self->last_y, radius, 0, 2 * G_PI);
-    cairo_set_source_rgba(cr, pass, pass, pass, 0.85);
-    cairo_set_line_width(cr, pass ? 1.5 : 3.5);
-    cairo_stroke(cr);
-  }
+  cairo_new_path(cr);
+  cairo_arc(cr, self->last_x, self->last_y, radius, 0, 2 * G_PI);
+  spore_viewport_stroke(cr, (const double[4]){1, 1, 1, 0.85}, 1.5);
 }
 
 /* Strokes. */

@@ -19,7 +19,8 @@
 #define HALF 0.5  /* with Ctrl and Shift */
 
 static const SporeVec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-static const double colours[4][3] = {{0.95, 0.3, 0.3}, {0.4, 0.85, 0.35}, {0.4, 0.6, 1}, {0.95, 0.95, 0.95}};
+static const double colours[4][4] = {
+    {0.95, 0.3, 0.3, 1}, {0.4, 0.85, 0.35, 1}, {0.4, 0.6, 1, 1}, {0.95, 0.95, 0.95, 1}};
 
 static SporeDocument *document_of(SporeViewport *self) { return spore_editor_document_get(self->document); }
 
@@ -103,23 +104,13 @@ static int handle_at(SporeViewport *self, SporeVec3 middle, double x, double y) 
 
 /* Drawing. */
 
-/* Twice, so that it is seen on any ground. */
-static void stroke(cairo_t *cr, const double colour[3], double width) {
-  cairo_set_source_rgba(cr, 0, 0, 0, 0.5);
-  cairo_set_line_width(cr, width + 2.5);
-  cairo_stroke_preserve(cr);
-  cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
-  cairo_set_line_width(cr, width);
-  cairo_stroke(cr);
-}
-
 static void draw_axis(SporeViewport *self, cairo_t *cr, int axis, SporeVec3 middle, gboolean held) {
   double line[RING_POINTS + 1][2];
   guint count = line_of(self, axis, middle, line);
   if (count < 2) return;
   cairo_move_to(cr, line[0][0], line[0][1]);
   for (guint i = 1; i < count; i++) cairo_line_to(cr, line[i][0], line[i][1]);
-  stroke(cr, colours[axis], held ? 4 : 2.5);
+  spore_viewport_stroke(cr, colours[axis], held ? 4 : 2.5);
   if (self->gizmo == SPORE_GIZMO_TURN) return;
   static const char *const names[] = {"x", "y", "z"};
   cairo_arc(cr, line[count - 1][0], line[count - 1][1], held ? 7 : 5, 0, 2 * G_PI);
@@ -134,7 +125,7 @@ static void draw_frame(SporeViewport *self, cairo_t *cr, SporeVec3 middle, doubl
   if (!spore_viewport_project(self, middle, &x, &y)) return;
   cairo_new_sub_path(cr);
   cairo_arc(cr, x, y, radius, 0, 2 * G_PI);
-  stroke(cr, colours[FREE], held ? 4 : 2.5);
+  spore_viewport_stroke(cr, colours[FREE], held ? 4 : 2.5);
   for (int i = 0; i < 4; i++) cairo_rectangle(cr, x + radius * grips[i][0] - 5, y + radius * grips[i][1] - 5, 10, 10);
   cairo_set_source_rgb(cr, colours[0][0], colours[0][1], colours[0][2]);
   cairo_fill(cr);
@@ -156,7 +147,7 @@ static void draw_box(SporeViewport *self, cairo_t *cr, const SporePlacement *pla
       cairo_move_to(cr, at[i][0], at[i][1]);
       cairo_line_to(cr, at[i | bit][0], at[i | bit][1]);
     }
-  stroke(cr, colours[FREE], 1.5);
+  spore_viewport_stroke(cr, colours[FREE], 1.5);
 }
 
 static void draw_scale(SporeViewport *self, cairo_t *cr, const SporePlacement *placement, gboolean drags) {

@@ -198,11 +198,9 @@ void spore_viewport_hand_draw(SporeViewport *self, cairo_t *cr) {
   double width = wide + 2 * NAME_PADDING, height = high + 2 * NAME_PADDING;
   gboolean fits = x + NAME_ASIDE + width < gtk_widget_get_allocated_width(self->area);
   double left = fits ? x + NAME_ASIDE : x - NAME_ASIDE - width;
-  cairo_set_source_rgb(cr, 1, 0.78, 0.25);
-  cairo_set_line_width(cr, 1.5);
   cairo_move_to(cr, x, y);
   cairo_line_to(cr, fits ? left : left + width, y);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, (const double[4]){1, 0.78, 0.25, 1}, 1.5);
   cairo_rectangle(cr, left, y - 0.5 * height, width, height);
   cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.75);
   cairo_fill_preserve(cr);

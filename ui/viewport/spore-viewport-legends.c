@@ -180,8 +180,8 @@ static guint lay(Around around, Legend *legends, guint count, const Size *size, 
 
 /* Drawing. */
 
-static void draw_box(cairo_t *cr, const GdkRectangle *at) {
-  cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
+static void draw_box(SporeViewport *self, cairo_t *cr, const GdkRectangle *at) {
+  spore_viewport_set_ground(self, cr);
   cairo_rectangle(cr, at->x, at->y, at->width, at->height);
   cairo_fill(cr);
 }
@@ -197,7 +197,7 @@ static void write_line(SporeViewport *self, cairo_t *cr, const Size *size, const
     pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_MIDDLE);
     wide = (int)width;
   }
-  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+  spore_viewport_set_letters(self, cr);
   cairo_move_to(cr, x + align * (width - wide), y);
   pango_cairo_show_layout(cr, layout);
 }
@@ -219,7 +219,10 @@ static void draw_key(SporeViewport *self, cairo_t *cr, const Size *size, const S
   double side = KEY_SHARE * size->line;
   cairo_set_source_rgb(cr, key->colour[0], key->colour[1], key->colour[2]);
   cairo_rectangle(cr, x, y + 0.5 * (size->line - side), side, side);
-  cairo_fill(cr);
+  cairo_fill_preserve(cr);
+  cairo_set_source_rgba(cr, 0, 0, 0, 0.5); /* white is a colour, too */
+  cairo_set_line_width(cr, 1);
+  cairo_stroke(cr);
   write_line(self, cr, size, key->text, x + 2 * side, y, width - 2 * side, 0);
 }
 
@@ -228,7 +231,7 @@ static void draw_legend(SporeViewport *self, cairo_t *cr, const Legend *legend, 
   const char *notes[2];
   guint note_count = notes_of(legend, size, notes);
   double x = legend->at.x + PADDING, y = legend->at.y + PADDING, width = size->width - 2 * PADDING;
-  draw_box(cr, &legend->at);
+  draw_box(self, cr, &legend->at);
   write_line(self, cr, size, legend->of.label, x, y, others ? (1 - OTHERS_SHARE) * width : width, 0);
   if (others) {
     g_autofree char *text = g_strdup_printf(_("+ %u more"), others);

@@ -46,9 +46,7 @@ static void draw_line(cairo_t *cr, const double from[2], const double to[2]) {
   cairo_new_path(cr);
   cairo_move_to(cr, from[0], from[1]);
   cairo_line_to(cr, to[0], to[1]);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_set_line_width(cr, 2);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, (const double[4]){1, 1, 1, 1}, 2);
 }
 
 static void draw_chosen(SporeViewport *self, cairo_t *cr, const Mark *mark) {
@@ -68,9 +66,7 @@ static void draw_outline(SporeViewport *self, cairo_t *cr) {
   }
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_source_rgba(cr, 0.85, 0.88, 0.92, 0.7);
-  cairo_set_line_width(cr, OUTLINE_PIXELS);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, (const double[4]){0.85, 0.88, 0.92, 0.7}, OUTLINE_PIXELS);
 }
 
 /* The places so far, and a line from there to the cursor. */

@@ -237,9 +237,7 @@ static void draw_lines(SporeViewport *self, cairo_t *cr, const Measure *measure)
     going = TRUE;
   }
   if (measure == &self->measures->draft && going) cairo_line_to(cr, self->last_x, self->last_y);
-  cairo_set_line_width(cr, 2);
-  cairo_set_source_rgba(cr, 0.55, 0.95, 0.65, measure->lost ? 0.4 : 1);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, (const double[4]){0.55, 0.95, 0.65, measure->lost ? 0.4 : 1}, 2);
   for (guint i = 0; i < measure->count; i++) spore_viewport_draw_handle(self, cr, measure->places[i], FALSE);
 }
 

@@ -18,13 +18,13 @@ static gboolean probe_force(SporeViewport *self, SporeVec3 *tip, SporeVec3 *forc
   return TRUE;
 }
 
-static void draw_arrow(cairo_t *cr, double x, double y, double dx, double dy) {
+static void draw_arrow(cairo_t *cr, const double colour[4], double width, double x, double y, double dx, double dy) {
   double length = hypot(dx, dy);
   if (length < 3) return;
   double ux = dx / length, uy = dy / length;
   cairo_move_to(cr, x, y);
   cairo_line_to(cr, x + dx, y + dy);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, colour, width);
   cairo_move_to(cr, x + dx + 7 * ux, y + dy + 7 * uy);
   cairo_line_to(cr, x + dx - 5 * uy, y + dy + 5 * ux);
   cairo_line_to(cr, x + dx + 5 * uy, y + dy - 5 * ux);
@@ -39,9 +39,8 @@ static void draw_force(SporeViewport *self, cairo_t *cr, int width, int height) 
   spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
   double newtons = spore_vec3_length(force);
   double scale = ARROW_PIXELS_A_NEWTON * fmin(1, ARROW_LONGEST_PIXELS / fmax(newtons * ARROW_PIXELS_A_NEWTON, 1e-9));
-  cairo_set_source_rgb(cr, 1, 0.78, 0.25);
-  cairo_set_line_width(cr, 3);
-  draw_arrow(cr, x, y, spore_vec3_dot(force, right) * scale, -spore_vec3_dot(force, up) * scale);
+  draw_arrow(cr, (const double[4]){1, 0.78, 0.25, 1}, 3, x, y, spore_vec3_dot(force, right) * scale,
+             -spore_vec3_dot(force, up) * scale);
 }
 
 static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
@@ -49,9 +48,7 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   if (self->drag != DRAG_PULL || !spore_camera_project(&self->camera, self->start, width, height, &x0, &y0) ||
       !spore_camera_project(&self->camera, self->cursor, width, height, &x1, &y1))
     return;
-  cairo_set_source_rgb(cr, 0.45, 0.8, 1);
-  cairo_set_line_width(cr, 2);
-  draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
+  draw_arrow(cr, (const double[4]){0.45, 0.8, 1, 1}, 2, x0, y0, x1 - x0, y1 - y0);
 }
 
 void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height) {

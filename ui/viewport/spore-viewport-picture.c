@@ -77,6 +77,7 @@ static void begin(SporeViewport *self, SporeViewportPicture *picture, const Spor
                                 .antialias = spore_viewport_is_fine(self),
                                 .coarse = !spore_viewport_is_fine(self),
                                 .scale = gtk_widget_get_scale_factor(self->area),
+                                .light = self->light,
                                 .clip = spore_viewport_clip(self)};
   g_autoptr(GError) error = NULL;
   gint64 now = g_get_monotonic_time();

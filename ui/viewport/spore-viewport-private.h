@@ -81,6 +81,7 @@ struct _SporeViewport {
   GMenuModel *link_kinds, *instrument_kinds, *fluid_kinds; /* for menus */
   SporeStageOptions options;
   gboolean presented;
+  gboolean light;   /* the windows are, and with them the room around the scene; not while the view is presented */
   gboolean figures; /* in the corner, those of an author, too */
 
   SporeHandEdit edit;    /* of the Edit tool */
@@ -175,6 +176,12 @@ SporeVec3 spore_viewport_under_cursor(SporeViewport *self, SporeVec3 through);
 gboolean spore_viewport_project(SporeViewport *self, SporeVec3 place, double *x, double *y);
 /* Handles: discs of a fixed size on the screen, at places of the scene. */
 void spore_viewport_draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled);
+/* Strokes the path, dark below bright: seen on any ground. colour: red, green, blue, opacity. */
+void spore_viewport_stroke(cairo_t *cr, const double colour[4], double width);
+/* Ground and letters of what is written on a ground of its own: dark with light letters, or the other way in a light
+ * room. */
+void spore_viewport_set_ground(SporeViewport *self, cairo_t *cr);
+void spore_viewport_set_letters(SporeViewport *self, cairo_t *cr);
 /* Marks the middle of the view, which is what the space bar picks. */
 void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr);
 /* Readable on any ground; x, y: its left upper corner, pixels. */

@@ -250,6 +250,25 @@ void spore_viewport_draw_text(SporeViewport *self, cairo_t *cr, const char *text
   cairo_fill(cr);
 }
 
+void spore_viewport_stroke(cairo_t *cr, const double colour[4], double width) {
+  cairo_set_source_rgba(cr, 0, 0, 0, 0.5 * colour[3]);
+  cairo_set_line_width(cr, width + 2.5);
+  cairo_stroke_preserve(cr);
+  cairo_set_source_rgba(cr, colour[0], colour[1], colour[2], colour[3]);
+  cairo_set_line_width(cr, width);
+  cairo_stroke(cr);
+}
+
+void spore_viewport_set_ground(SporeViewport *self, cairo_t *cr) {
+  if (self->light) cairo_set_source_rgba(cr, 0.99, 0.99, 1, 0.8);
+  else cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
+}
+
+void spore_viewport_set_letters(SporeViewport *self, cairo_t *cr) {
+  if (self->light) cairo_set_source_rgb(cr, 0.11, 0.12, 0.13);
+  else cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+}
+
 void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr) {
   double x = 0.5 * gtk_widget_get_allocated_width(self->area), y = 0.5 * gtk_widget_get_allocated_height(self->area);
   cairo_new_path(cr);
@@ -257,9 +276,7 @@ void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr) {
   cairo_line_to(cr, x + CROSS_PIXELS, y);
   cairo_move_to(cr, x, y - CROSS_PIXELS);
   cairo_line_to(cr, x, y + CROSS_PIXELS);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_set_line_width(cr, 2);
-  cairo_stroke(cr);
+  spore_viewport_stroke(cr, (const double[4]){1, 1, 1, 1}, 2);
 }
 
 /* The candidate. */

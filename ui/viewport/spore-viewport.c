@@ -132,6 +132,7 @@ gboolean spore_viewport_save_picture(SporeViewport *self, const char *file, GErr
                                 .grid = FALSE,
                                 .antialias = TRUE,
                                 .scale = scale,
+                                .light = self->light,
                                 .clip = spore_viewport_clip(self)};
   gsize stride = (gsize)options.width * 4;
   spore_viewport_wait_for_graphics(self);
@@ -309,12 +310,28 @@ static void tool_clicked(GtkWidget *button, SporeViewport *self) {
   light_tool(self);
 }
 
+/* The room is as light as the windows are, which their theme tells: its letters are dark then. Not for who works in the
+ * picture: that is what the lamp shows in a body. */
+static void follow_theme(SporeViewport *self) {
+  GdkRGBA letters;
+  GtkStyleContext *style = gtk_widget_get_style_context(GTK_WIDGET(self));
+  gboolean light = !self->presented && gtk_style_context_lookup_color(style, "theme_fg_color", &letters) &&
+                   letters.red + letters.green + letters.blue < 1.5;
+  if (light == self->light) return;
+  self->light = light;
+  if (light) gtk_style_context_add_class(style, "light-room");
+  else gtk_style_context_remove_class(style, "light-room");
+  spore_viewport_redraw(self);
+  gtk_widget_queue_draw(self->axes);
+}
+
 void spore_viewport_set_presented(SporeViewport *self, gboolean presented) {
   self->presented = presented;
   gtk_widget_set_visible(self->notice, presented);
   gtk_label_set_max_width_chars(GTK_LABEL(self->hud), presented ? HUD_BESIDE_CONTROLS : HUD_CHARS);
   gtk_widget_set_visible(self->overlays, !presented); /* its author's; a trainee's exercise stands there */
   gtk_widget_set_visible(self->axes, !presented);
+  follow_theme(self);
   spore_viewport_ports_refresh(self);
   update_stage(self);
 }
@@ -492,5 +509,7 @@ static void spore_viewport_init(SporeViewport *self) {
   spore_viewport_measures_fill_menu(GTK_MENU_BUTTON(self->measure_button));
   g_signal_connect(self, "measuring", G_CALLBACK(light_tool), NULL);
   light_tool(self);
+  g_signal_connect(self, "style-updated", G_CALLBACK(follow_theme), NULL);
+  follow_theme(self);
   spore_viewport_prepare_graphics(self);
 }
