@@ -198,7 +198,7 @@ TABLE(static, link, SporeLinkDescription, LINK)
   X(T, type, TYPE, .types = &tool_types)                                                                               \
   X(T, bodies, BODIES, .repeat = SPORE_TOOL_BODIES)                                                                    \
   X(T, fields, TYPE_FIELDS, .types = &tool_types)                                                                      \
-  X(T, effect, OPTION)
+  X(T, effect, FLAG)
 TABLE(static, tool, SporeToolDescription, TOOL)
 
 #define EMITTER(X, T)                                                                                                  \
@@ -208,7 +208,7 @@ TABLE(static, tool, SporeToolDescription, TOOL)
   X(T, point, REALS, DOUBLES(SporeVec3))                                                                               \
   X(T, direction, REALS, DOUBLES(SporeVec3))                                                                           \
   X(T, fields, FIELDS, .parameters = &spore_emitter_parameters)                                                        \
-  X(T, effect, OPTION)
+  X(T, effect, FLAG)
 TABLE(static, emitter, SporeEmitterDescription, EMITTER)
 
 #define EYE(X, T)                                                                                                      \

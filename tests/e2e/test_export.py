@@ -69,6 +69,12 @@ def settings_and_input_come_along(*_):
     options = ["--set", "environment/gravity=0 -5 0", "--dt", "0.002", "--integrator", "bdf2", "--input", SCENES / "plate4-deformed-ovary" / "plate4-deformed-ovary.track"]
     file, _ = export(scene, *options)
     assert state(PLAYER, file, "--steps", STEPS)["state_hash"] == state(SPORE, "run", scene, "-n", STEPS, *options)["state_hash"]
+    clips = ["--set", "tools/left_clamp/fidelity/mode=effect"]
+    clamped = SCENES / "exercise-clip-and-cut.spore"
+    clipped, _ = export(clamped, *clips)
+    held = state(SPORE, "run", clamped, "-n", 500, *clips)
+    assert held["tools"][0]["held"] > 0 and held["tools"][0]["squeeze_Nm"] == 0, held["tools"]
+    assert state(PLAYER, clipped, "--steps", 500)["state_hash"] == held["state_hash"] != state(SPORE, "run", clamped, "-n", 500)["state_hash"]
     shutil.copytree(SCENES / "minimal", FOLDER / "minimal")
     rinsed = shutil.copy(SCENES / "minimal.spore", FOLDER / "minimal.spore")
     run(SPORE, "edit", rinsed, "--instrument", "irrigator:jet")

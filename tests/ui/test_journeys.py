@@ -1,5 +1,6 @@
 """test_journeys.py EDITOR FEATURES: what a user does in the editor, from the empty window to the saved scene."""
 import csv
+import itertools
 import json
 import math
 import os
@@ -2190,10 +2191,10 @@ def drag_row(editor, name, onto, done):
     place = lambda row: editor.place(ui.wait(lambda: editor.row(row), row))
 
     def tries():
-        while True:
+        for begin in itertools.cycle((8, 20, 32)):
             x, y, width, height = place(name)
             to_x, to_y, _, _ = place(onto)
-            for step in (("mousemove", x + 20, y + height // 2, "mousedown", 1), ("mousemove", x + 30, y + height // 2 + 8),
+            for step in (("mousemove", x + begin, y + height // 2, "mousedown", 1), ("mousemove", x + begin + 10, y + height // 2 + 8),
                          ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3), ("mouseup", 1)):
                 editor.mouse(*step)
                 yield False
@@ -3662,6 +3663,29 @@ def an_effect_takes_the_place_of_physics():
                 editor.act(mode)
             ui.wait(lambda: times.append(editor.time_s() or times[-1]) or times[-1] > times[0] + 0.1, "the run to go on")
             assert min(times) == times[0], (mode, times)
+        assert not editor.message(), editor.message()
+
+
+@check
+def a_clamp_becomes_a_clip():
+    """the inspector of a clamp says whether it is an effect; while it holds a tube, it becomes a clip, and a clamp again by undo: the run goes on, without a restart."""
+    with start(SCENES / "exercise-clip-and-cut.spore") as editor:
+        ui.wait(lambda: editor.row("left_clamp"), "the scene")
+        editor.act("select", "s", "tools/left_clamp")
+        editor.find("label", "^Fidelity$")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 1.6, "the clamp to close")
+        for action, effect in (("set-property", True), ("undo", False), ("redo", True)):
+            times = [editor.time_s()]
+            if action == "set-property":
+                editor.act(action, "(sss)", ("tools/left_clamp/fidelity", "mode", "effect"))
+            else:
+                ui.wait(lambda: editor.enabled(action), f"{action} to be possible")
+                editor.act(action)
+            ui.wait(lambda: ('mode="effect"' in saved(editor, "clip")) == effect, "the mode to change")
+            ui.wait(lambda: times.append(editor.time_s() or times[-1]) or times[-1] > times[0] + 0.1, "the run to go on")
+            assert min(times) == times[0], (action, times)
+        keep_picture(editor, "clip")
         assert not editor.message(), editor.message()
 
 
