@@ -2593,7 +2593,7 @@ def a_drag_beside_turns_the_view():
             return False
 
         middle, beside = (x + width // 2, y + height // 2), (x + width // 2, y + height - 60)
-        rights = [(middle[0] + dx, middle[1]) for dx in range(20, width // 2 - 10, 12)]
+        rights = [(middle[0] + dx, middle[1]) for dx in sorted(range(20, width // 2 - 10, 12), key=lambda dx: abs(dx - width // 4))]
         at = next(place for place in rights if selects(place))
         assert not editor.enabled("show-all")
         editor.act("hide")
