@@ -3672,7 +3672,7 @@ def a_clamp_becomes_a_clip():
     with start(SCENES / "exercise-clip-and-cut.spore") as editor:
         ui.wait(lambda: editor.row("left_clamp"), "the scene")
         editor.act("select", "s", "tools/left_clamp")
-        editor.find("label", "^Fidelity$")
+        editor.find("label|toggle button", "^Fidelity", showing=False)
         editor.act("play")
         ui.wait(lambda: (editor.time_s() or 0) > 1.6, "the clamp to close")
         for action, effect in (("set-property", True), ("undo", False), ("redo", True)):
