@@ -498,7 +498,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
        N_("Pin a body where it lies lowest and farthest behind, so that it does not fall (may be repeated)"), "BODY"},
       {"instrument", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.instrument,
        N_("Add an instrument that the mouse moves: KIND, KIND:NAME, KIND@X,Y,Z (where it enters, m) or "
-          "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, scissors, bipolar, suction, needle, "
+          "KIND@X,Y,Z@X,Y,Z (and what it points at); probe, grasper, clamp, clip, scissors, bipolar, suction, needle, "
           "irrigator, bag, endoscope, endoscope_30 (may be repeated)"),
        "KIND@ENTRY@TARGET"},
       {"texture", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.texture,

@@ -9,6 +9,7 @@
 #include "core/author/instrument_bag.h"
 #include "core/io/mesh_import.h"
 #include "core/math/quat.h"
+#include "core/scene/fidelity.h"
 #include "core/scene/camera_sight.h"
 #include "core/scene/compile.h"
 #include "core/scene/length_unit.h"
@@ -248,12 +249,18 @@ static SporeObject *mouse_of(const Addition *addition, GError **error) {
   return mouse ? mouse : insert(addition, "devices", "mouse", "mouse", error);
 }
 
+static gboolean set_mode(const Addition *addition, SporeObject *tool, GError **error) {
+  const char *mode = addition->instrument->mode;
+  return !mode || spore_fidelity_set_mode(addition->document, tool, mode, error);
+}
+
 static gboolean add_tool(const Addition *addition, SporeObject *body, GError **error) {
   SporeObject *mouse = mouse_of(addition, error);
   SporeObject *tool = mouse ? insert(addition, "tools", addition->instrument->tool, addition->name, error) : NULL;
   return tool && set(addition, tool, "body", spore_object_name(body), error) &&
          set(addition, tool, "device", spore_object_name(mouse), error) && set_places(addition, tool, error) &&
-         set_all(addition, tool, addition->instrument->settings, error) && add_others(addition, tool, error);
+         set_all(addition, tool, addition->instrument->settings, error) && set_mode(addition, tool, error) &&
+         add_others(addition, tool, error);
 }
 
 /* What comes out of it, named after it. */

@@ -39,6 +39,7 @@ typedef struct SporeInstrumentKind {
   double clearance;   /* from what it works with to what it points at, where there is room */
   double look_rad;    /* between a camera's view and its shaft */
   const char *fluid;  /* of the library of fluids, what comes out of it; NULL: nothing */
+  const char *mode;   /* of the tool's fidelity; NULL: it has none */
   const char *const *settings; /* of the tool: name, text, ..., NULL; where they differ from their defaults */
 } SporeInstrumentKind;
 

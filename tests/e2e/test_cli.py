@@ -1744,7 +1744,7 @@ def slim_bar():
 def instruments_of_the_library_work():
     """Each instrument, put in above a soft bar and led down on it, does with its button down what it is for, and does not without; a bar that it is not led to is left alone."""
     bar = slim_bar()
-    for kind, way, member in (("grasper", 0.020, "held"), ("clamp", 0.020, "held"), ("scissors", 0.022, "cut"), ("bipolar", 0.014, "coagulated")):
+    for kind, way, member in (("grasper", 0.020, "held"), ("clamp", 0.020, "held"), ("clip", 0.020, "held"), ("scissors", 0.022, "cut"), ("bipolar", 0.014, "coagulated")):
         scene = bar.with_name(f"{kind}.spore")
         assert report("edit", bar, "--instrument", f"{kind}@0.025,0.12,0.004@0.025,0.008,0.004", "-o", scene)["changed"] == [f"bodies/{kind}_1"]
         assert not report("check", scene)["diagnostics"], kind

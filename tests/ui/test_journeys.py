@@ -3071,7 +3071,7 @@ def moved_by_the_gizmo():
         assert vector(root.find("bodies/body[@name='left-2']").get("position"))[0] > 0.02 and len(root.findall("links/spring")) == 2
 
 
-INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "scissors": ("Scissors", "scissors"),
+INSTRUMENTS = {"probe": ("Probe", "probe"), "grasper": ("Grasper", "grasper"), "clamp": ("Clamp", "clamp"), "clip": ("Clip", "clamp"), "scissors": ("Scissors", "scissors"),
                "bipolar": ("Bipolar forceps", "bipolar"), "suction": ("Suction", "suction"), "irrigator": ("Suction and irrigation", "suction"), "needle": ("Needle with thread", "needle"), "bag": ("Specimen bag", "probe"),
                "endoscope": ("Endoscope", "probe"), "endoscope_30": ("Endoscope, 30 degrees", "probe")}
 

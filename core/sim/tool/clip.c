@@ -26,23 +26,6 @@ static SporePose placed(SporePose frame, SporePose pose) {
                      spore_quat_normalise(spore_quat_multiply(frame.orientation, pose.orientation))};
 }
 
-void spore_clip_make(SporeWorld *world, SporeJaws *jaws) {
-  SporeClip *clip = &jaws->clip;
-  SporeVec3 along = spore_vec3_sub(jaws->tool.tip, jaws->hinge);
-  along = spore_vec3_add_scaled(along, -spore_vec3_dot(along, jaws->axis), jaws->axis);
-  clip->length = spore_vec3_length(along);
-  clip->along = spore_vec3_normalise(along, (SporeVec3){0, 0, 0});
-  for (int j = 0; j < 2; j++) {
-    const SporeBody *body = &world->bodies[jaws->jaw[j].body];
-    const SporeMapping *spheres = &body->collision.spheres;
-    for (size_t i = 0; i < spheres->point_count; i++) {
-      SporeVec3 at = spore_pose_apply(jaws->jaw[j].closed, spore_vec3_load(spheres->points + 3 * i));
-      double radius = world->contact.spheres.radius[body->collision.start + i];
-      clip->width = fmax(clip->width, fabs(spore_vec3_dot(spore_vec3_sub(at, jaws->hinge), jaws->axis)) + radius);
-    }
-  }
-}
-
 bool spore_clip_leads(const SporeJaws *jaws) { return jaws->tool.effect || jaws->clip.leaving; }
 
 static void set_apart(SporeWorld *world, const SporeJaws *jaws, bool apart) {
@@ -71,7 +54,7 @@ static SporePose seat_frame(const SporeWorld *world, const SporeClip *clip) {
 static void sit_down(SporeWorld *world, SporeJaws *jaws) {
   SporeClip *clip = &jaws->clip;
   SporePose shaft = pose_of(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);
-  SporeVec3 middle = spore_pose_apply(shaft, spore_vec3_add_scaled(jaws->hinge, 0.5 * clip->length, clip->along));
+  SporeVec3 middle = spore_pose_apply(shaft, spore_vec3_add_scaled(jaws->hinge, 0.5 * jaws->length, jaws->along));
   double least = INFINITY;
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
     const SporeHold *hold = &jaws->holds[i];
@@ -158,6 +141,8 @@ static void close_on(SporeWorld *world, SporeJaws *jaws, double wanted) {
 
 void spore_clip_use(SporeWorld *world, SporeJaws *jaws, double wanted) {
   jaws->squeeze = 0;
+  /* Another level of the body may have no spheres. */
+  if (jaws->clip.set && world->bodies[jaws->clip.body].collision.spheres.point_count == 0) get_up(world, jaws);
   if (jaws->clip.leaving) leave(world, jaws);
   else close_on(world, jaws, wanted);
   if (jaws->clip.set) aim(world, jaws, placed(seat_frame(world, &jaws->clip), jaws->clip.shaft));
@@ -186,14 +171,14 @@ void spore_clip_reset(SporeWorld *world, SporeJaws *jaws) {
 bool spore_clip_squeeze(const SporeWorld *world, const SporeTool *tool, SporeSqueeze *squeeze) {
   const SporeJaws *jaws = (const SporeJaws *)tool;
   const SporeClip *clip = &jaws->clip;
-  if (!clip->set || !(clip->length > 0) || !(clip->touched > 0)) return false;
+  if (!clip->set || !(jaws->length > 0) || !(clip->touched > 0)) return false;
   SporePose shaft = pose_of(world->state.q + world->bodies[tool->bodies[0]].q_offset);
-  SporeMat3 axes = spore_mat3_from_columns(clip->along, jaws->axis, spore_vec3_cross(clip->along, jaws->axis));
+  SporeMat3 axes = spore_mat3_from_columns(jaws->along, jaws->axis, spore_vec3_cross(jaws->along, jaws->axis));
   *squeeze = (SporeSqueeze){.body = clip->body,
                             .frame = placed(shaft, (SporePose){jaws->hinge, spore_quat_from_mat3(axes)}),
-                            .length = clip->length,
-                            .width = clip->width,
-                            .height = clip->length * tan(0.5 * fmin(clip->touched, 3.)),
+                            .length = jaws->length,
+                            .width = jaws->width,
+                            .height = jaws->length * tan(0.5 * fmin(clip->touched, 3.)),
                             .ratio = fmin(1, tan(0.5 * fmin(jaws->opening, 3.)) / tan(0.5 * fmin(clip->touched, 3.)))};
   return true;
 }

@@ -6,8 +6,6 @@
 
 #include "core/sim/tool/jaws.h"
 
-/* Makes what the clamp needs as an effect. Its jaws are made. */
-void spore_clip_make(SporeWorld *world, SporeJaws *jaws);
 /* Whether the clamp moves as an effect does: it is one, or opens before physics has it again. */
 bool spore_clip_leads(const SporeJaws *jaws);
 /* Its part of the step, in place of pressing: moves the jaws toward `wanted` (rad), and the shaft with the tissue. */

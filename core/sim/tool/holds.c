@@ -94,30 +94,75 @@ static bool may_pinch(const SporeWorld *world, const SporeJaws *jaws, const Spor
          !(group != 0 && group == body->collision.fields.group);
 }
 
-/* Whether both jaws have a sphere of the body between them. */
-static bool pinch_sphere(const SporeWorld *world, const SporeJaws *jaws, const SporeBody *body, size_t sphere) {
-  const double *shaft = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
-  SporeVec3 hinge = spore_pose_apply((SporePose){spore_vec3_load(shaft), spore_quat_load(shaft + 3)}, jaws->hinge);
-  double radius = world->contact.spheres.radius[body->collision.start + sphere];
-  SporeVec3 centre = spore_mapping_position(&body->collision.spheres, sphere, world->state.q + body->q_offset);
-  if (spore_vec3_distance(centre, hinge) > jaws->reach + radius) return false;
-  double a = depth_in(world, &jaws->jaw[0], centre, radius), b = depth_in(world, &jaws->jaw[1], centre, radius);
-  return fmin(a, b) > REACHED * radius && a + b > PINCHED * radius;
+/* The jaws as they are in a state. */
+typedef struct Jaws {
+  SporeWorld *world;
+  SporeJaws *jaws;
+  SporePose frame; /* of the hinge: along the jaws is x, z is from one to the other */
+  double half_gap; /* between them, for a length of 1 */
+  double depth[2]; /* how deep each is in what of a body lies between them, in radii of its spheres */
+} Jaws;
+
+static Jaws look_at(SporeWorld *world, SporeJaws *jaws) {
+  const double *q = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
+  const SporePose shaft = {spore_vec3_load(q), spore_quat_load(q + 3)};
+  SporeMat3 axes = spore_mat3_from_columns(jaws->along, jaws->axis, spore_vec3_cross(jaws->along, jaws->axis));
+  return (Jaws){.world = world,
+                .jaws = jaws,
+                .frame = {spore_pose_apply(shaft, jaws->hinge),
+                          spore_quat_multiply(shaft.orientation, spore_quat_from_mat3(axes))},
+                .half_gap = tan(0.5 * fmin(jaws->opening, 3.)),
+                .depth = {-HUGE_VAL, -HUGE_VAL}};
+}
+
+static SporeVec3 centre_of(const Jaws *look, const SporeBody *body, size_t sphere) {
+  return spore_mapping_position(&body->collision.spheres, sphere, look->world->state.q + body->q_offset);
+}
+
+/* Whether the sphere lies between the jaws, or is met by one of them from within. */
+static bool is_between(const Jaws *look, SporeVec3 centre, double radius) {
+  SporeVec3 at = spore_pose_apply_inverse(look->frame, centre);
+  return at.x > -radius && at.x < look->jaws->length + radius && fabs(at.y) < look->jaws->width + radius &&
+         fabs(at.z) < look->half_gap * fmax(at.x, 0) + look->jaws->width + radius;
+}
+
+/* How deep each jaw is in what of the body lies between them. */
+static void find_depths(Jaws *look, const SporeBody *body) {
+  look->depth[0] = look->depth[1] = -HUGE_VAL;
+  for (size_t i = 0; i < body->collision.spheres.point_count; i++) {
+    double radius = look->world->contact.spheres.radius[body->collision.start + i];
+    SporeVec3 centre = centre_of(look, body, i);
+    if (spore_vec3_distance(centre, look->frame.position) > look->jaws->reach + radius ||
+        !is_between(look, centre, radius))
+      continue;
+    for (int j = 0; j < 2; j++) {
+      double depth = depth_in(look->world, &look->jaws->jaw[j], centre, radius) / radius;
+      look->depth[j] = fmax(look->depth[j], depth);
+    }
+  }
+}
+
+static bool take_between(const Jaws *look, const SporeBody *body, bool tied) {
+  bool found = false;
+  for (size_t i = 0; i < body->collision.spheres.point_count; i++) {
+    uint32_t sphere = (uint32_t)(body->collision.start + i);
+    if (!is_between(look, centre_of(look, body, i), look->world->contact.spheres.radius[sphere])) continue;
+    if (tied) spore_jaws_hold(look->world, look->jaws, look->jaws->jaw[0].body, sphere);
+    else take(look->jaws, sphere);
+    found = true;
+  }
+  return found;
 }
 
 bool spore_jaws_pinch(SporeWorld *world, SporeJaws *jaws, bool effects) {
+  Jaws look = look_at(world, jaws);
   bool found = false;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    bool may = may_pinch(world, jaws, body) && (!effects || body->effect.on);
-    size_t count = may ? body->collision.spheres.point_count : 0;
-    for (size_t i = 0; i < count; i++) {
-      if (!pinch_sphere(world, jaws, body, i)) continue;
-      uint32_t sphere = (uint32_t)(body->collision.start + i);
-      if (effects) spore_jaws_hold(world, jaws, jaws->jaw[0].body, sphere);
-      else take(jaws, sphere);
-      found = true;
-    }
+    if (!may_pinch(world, jaws, body) || (effects && !body->effect.on)) continue;
+    find_depths(&look, body);
+    if (fmin(look.depth[0], look.depth[1]) > REACHED && look.depth[0] + look.depth[1] > PINCHED)
+      found |= take_between(&look, body, effects);
   }
   return found;
 }

@@ -58,17 +58,22 @@ static SporeVec3 tip_of(const SporeWorld *world, const SporeJaws *jaws) {
   return count > 0 ? spore_vec3_scale(1 / count, sum) : jaws->hinge;
 }
 
-static double reach_of(const SporeWorld *world, const SporeJaws *jaws) {
-  double reach = 0;
+/* How far the jaws reach, by their spheres. */
+static void measure(const SporeWorld *world, SporeJaws *jaws) {
+  SporeVec3 along = spore_vec3_sub(jaws->tool.tip, jaws->hinge);
+  along = spore_vec3_add_scaled(along, -spore_vec3_dot(along, jaws->axis), jaws->axis);
+  jaws->length = spore_vec3_length(along);
+  jaws->along = spore_vec3_normalise(along, (SporeVec3){0, 0, 0});
   for (int j = 0; j < 2; j++) {
     const SporeBody *body = jaws->jaw[j].body == SPORE_NO_BODY ? NULL : &world->bodies[jaws->jaw[j].body];
     for (size_t i = 0; body && i < body->collision.spheres.point_count; i++) {
       SporeVec3 at = spore_pose_apply(jaws->jaw[j].closed, spore_vec3_load(body->collision.spheres.points + 3 * i));
       double radius = world->contact.spheres.radius[body->collision.start + i];
-      reach = fmax(reach, spore_vec3_distance(at, jaws->hinge) + radius);
+      SporeVec3 from = spore_vec3_sub(at, jaws->hinge);
+      jaws->width = fmax(jaws->width, fabs(spore_vec3_dot(from, jaws->axis)) + radius);
+      jaws->reach = fmax(jaws->reach, spore_vec3_length(from) + radius);
     }
   }
-  return reach;
 }
 
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
@@ -91,7 +96,7 @@ bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescript
         (SporePose){spore_pose_apply_inverse(*frame, pose->position), spore_quat_multiply(back, pose->orientation)};
   }
   tool->tip = tip_of(world, jaws);
-  jaws->reach = reach_of(world, jaws);
+  measure(world, jaws);
   jaws->held_at = -1;
   jaws->holds = SPORE_NEW_ARRAY(SporeHold, tool->spring_count);
   bool made = jaws->holds != NULL;
@@ -295,11 +300,8 @@ static size_t holds(const SporeWorld *world, const SporeTool *tool, uint32_t bod
 static size_t spring_count(const void *fields) { return (size_t)((const SporeJawFields *)fields)->holds; }
 
 static bool make_clamp(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
-  SporeJaws *jaws = (SporeJaws *)tool;
-  jaws->latches = true;
-  if (!spore_jaws_make(world, tool, from)) return false;
-  spore_clip_make(world, jaws);
-  return true;
+  ((SporeJaws *)tool)->latches = true;
+  return spore_jaws_make(world, tool, from);
 }
 
 static const SporeParameter rows[] = {SPORE_JAW_BODY_ROWS, SPORE_JAW_ROWS};

@@ -20,15 +20,13 @@ typedef struct SporeJaw {
 
 /* What a clamp knows of itself as an effect; see clip.h. */
 typedef struct SporeClip {
-  SporeVec3 along;      /* from the hinge to the tips, in the frame of the tool's body */
-  double length, width; /* of the jaws, m: along that; to either side of it */
-  bool set;             /* it sits on a body and goes along with it */
-  bool leaving;         /* it opens, and is physical then */
-  bool back;            /* the shaft is on its way back to its device */
-  uint32_t body;        /* that it sits on */
-  SporeSeat seat;       /* among the body's spheres */
-  SporePose shaft;      /* in the frame of the seat */
-  double touched;       /* opening at which the jaws touched what is between them, rad */
+  bool set;        /* it sits on a body and goes along with it */
+  bool leaving;    /* it opens, and is physical then */
+  bool back;       /* the shaft is on its way back to its device */
+  uint32_t body;   /* that it sits on */
+  SporeSeat seat;  /* among the body's spheres */
+  SporePose shaft; /* in the frame of the seat */
+  double touched;  /* opening at which the jaws touched what is between them, rad */
 } SporeClip;
 
 typedef struct SporeJaws {
@@ -36,14 +34,15 @@ typedef struct SporeJaws {
   SporeJawFields fields;
   SporeVec3 hinge, axis; /* in the frame of the tool's body */
   SporeJaw jaw[2];
-  double reach;          /* of the jaws' spheres from the hinge, m */
-  bool latches, latched; /* of a clamp */
-  SporeHold *holds;      /* tool.spring_count */
-  double opening;        /* rad */
-  double squeeze;        /* torque against closing, N m */
-  double held_at;        /* opening at which the jaws began to hold; negative: they hold nothing */
-  double stroke;         /* opening at which they began to close, rad */
-  SporeClip clip;        /* of a clamp */
+  SporeVec3 along;             /* from the hinge to the tips, in the frame of the tool's body */
+  double length, width, reach; /* of the jaws, m: along that; to either side of it; from the hinge to the farthest */
+  bool latches, latched;       /* of a clamp */
+  SporeHold *holds;            /* tool.spring_count */
+  double opening;              /* rad */
+  double squeeze;              /* torque against closing, N m */
+  double held_at;              /* opening at which the jaws began to hold; negative: they hold nothing */
+  double stroke;               /* opening at which they began to close, rad */
+  SporeClip clip;              /* of a clamp */
 } SporeJaws;
 
 /* What is wrong with the jaws' bodies or hinge, or with the hinge alone; translated, or NULL. */
