@@ -50,6 +50,7 @@ static const struct {
     {"win.colours::stress", N_("Colours: stress")},
     {"win.colours::velocity", N_("Colours: velocity")},
     {"win.colours::level", N_("Colours: level of detail")},
+    {"win.colours::cells", N_("Colours: shape of cells")},
     {"win.keep-scale", N_("Colours: keep this scale, or let it follow the state")},
     {"win.show-reach", N_("Show or hide what instruments reach through their ports")},
     {"win.show-figures", N_("Show or hide what a step costs")},

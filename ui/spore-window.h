@@ -47,7 +47,7 @@
  *               plot [s quantity], watch [s BODY@X,Y,Z], forget-points
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts, show-links, show-reach, show-figures (state), box-select (state: of the next drag),
- *               colours [s "none", "strain", "stress", "velocity" or "level"; state],
+ *               colours [s "none", "strain", "stress", "velocity", "level" or "cells"; state],
  *               keep-scale (state: of the colours), frame,
  *               view [s "camera", "front", "back", "right", "left", "top" or "bottom"],
  *               show-outliner, show-inspector, show-problems, show-tab [s name of a tab below the view],

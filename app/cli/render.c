@@ -89,11 +89,12 @@ static gboolean parse_field(const RenderOptions *options, SporeReelKind kind, Sp
                              _("it is the end of a scale, and no colours are asked for; expected --field as well"));
   for (guint i = 0; options->field && spore_stage_field_names[i]; i++)
     if (g_str_equal(options->field, spore_stage_field_names[i])) shown->field = i;
-  if (options->field && shown->field == SPORE_FIELD_NONE)
+  if (options->field && shown->field == SPORE_FIELD_NONE) {
+    g_autofree char *names = g_strjoinv(", ", (char **)spore_stage_field_names + 1);
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--field",
-                             _("'%s' is nothing that colours show; expected strain, stress, velocity or level"),
-                             options->field);
-  if (options->field && shown->field != SPORE_FIELD_LEVEL && !options->field_end &&
+                             _("'%s' is nothing that colours show; expected one of: %s"), options->field, names);
+  }
+  if (options->field && shown->field != SPORE_FIELD_LEVEL && shown->field != SPORE_FIELD_CELLS && !options->field_end &&
       (options->beside || kind != SPORE_REEL_PICTURE))
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--field", "%s",
                              _("several pictures need one scale of colours; expected --field-end as well"));
@@ -276,9 +277,9 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"length_s", N_("of the film or the row, s; 0: a single picture")},
       {"gl_renderer", N_("what drew it")},
       {"reach", N_("with --reach, of each organ: body, share of its surface that is reached at the start")},
-      {"field", N_("what colours show: strain, stress, velocity or level, with --field")},
-      {"field_end",
-       N_("end of the scale of colours, which begins at 0; strain: 1 is 100 %; stress: Pa; velocity: m/s")},
+      {"field", N_("what colours show: strain, stress, velocity, level or cells, with --field")},
+      {"field_end", N_("end of the scale of colours, which begins at 0; strain: 1 is 100 %; stress: Pa; velocity: m/s; "
+                       "cells: degrees")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "render", "SCENE", N_("Makes a picture of a scene (PNG), a row of pictures, or a film (WebM)."), 1, 1, members};
@@ -314,7 +315,7 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"field", 0, 0, G_OPTION_ARG_STRING, &options.field,
        N_("Colour soft bodies by strain (largest principal Green's strain), stress (von Mises, from the body's own "
           "law), "
-          "velocity, or level of detail"),
+          "velocity, level of detail, or cells (least angle of the worst one there)"),
        "WHAT"},
       {"field-end", 0, 0, G_OPTION_ARG_STRING, &options.field_end,
        N_("End of the scale of colours, in SI units (0.2: 20 % strain); default: it follows the state that is shown"),

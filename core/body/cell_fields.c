@@ -1,4 +1,4 @@
-/* Strain and stress of elements, each by itself. */
+/* Strain, stress and shape of elements, each by itself. */
 #include "core/body/cell_fields.h"
 
 #include <assert.h>
@@ -129,6 +129,22 @@ void spore_cell_fields_stress(const SporeCellFields *cells, double *stress) {
                                                  spore_vec3_sub(spore_vec3_load(cells->q + 3 * a), origin)));
     SporeMat3 sigma = spore_mat3_scale(-1 / volume, sum);
     stress[c] = volume > FLAT * before ? von_mises(&sigma) : NAN;
+  }
+}
+
+void spore_cell_fields_shape(const SporeCellFields *cells, double *shape) {
+  for (size_t c = 0; c < cells->count; c++) {
+    SporeVec3 corner[4];
+    for (size_t k = 0; k < 4; k++) corner[k] = spore_vec3_load(cells->q + 3 * (cells->per * c + k));
+    shape[c] = fmax(0, spore_tetrahedron_quality(corner));
+  }
+}
+
+void spore_cell_fields_least(const SporeCellFields *cells, const double *values, size_t node_count, double *nodes) {
+  for (size_t i = 0; i < node_count; i++) nodes[i] = NAN;
+  for (size_t a = 0; a < cells->per * cells->count; a++) {
+    assert(cells->corner[a] < node_count);
+    nodes[cells->corner[a]] = fmin(nodes[cells->corner[a]], values[a / cells->per]); /* not a number does not count */
   }
 }
 

@@ -1,6 +1,6 @@
-/* Strain and stress of a body's elements at a state, for pictures. Each element is computed by itself: strain from its
- * corners, stress from the forces on its nodes that the body's own model gives. Nothing here reads what a running step
- * changes, so that a viewer computes them on its own thread. */
+/* Strain, stress and shape of a body's elements at a state, for pictures. Each element is computed by itself: strain
+ * from its corners, stress from the forces on its nodes that the body's own model gives. Nothing here reads what a
+ * running step changes, so that a viewer computes them on its own thread. */
 #ifndef SPORE_SIM_CELL_FIELDS_H
 #define SPORE_SIM_CELL_FIELDS_H
 
@@ -30,6 +30,11 @@ void spore_cell_fields_strain(const SporeCellFields *cells, double *strain);
  * sigma = -1/v sum f x^T (what the forces do in any virtual strain). Coagulated tissue counts as it was before heat.
  * Not a number where an element is flat or inside out. stress: one an element. */
 void spore_cell_fields_stress(const SporeCellFields *cells, double *stress);
+/* The shape of each element now: spore_tetrahedron_quality of its corners, degrees; 0 where it is flat or inside out.
+ * shape: one an element. */
+void spore_cell_fields_shape(const SporeCellFields *cells, double *shape);
+/* From elements to the nodes of the body: the least of the elements that hold a node. values, nodes: as below. */
+void spore_cell_fields_least(const SporeCellFields *cells, const double *values, size_t node_count, double *nodes);
 /* From elements to the nodes of the body: the mean of the elements that hold a node, by their volumes at rest. Values
  * that are not numbers do not count. values: one an element; nodes: node_count; not a number where no element says. */
 void spore_cell_fields_spread(const SporeCellFields *cells, const double *values, size_t node_count, double *nodes);

@@ -98,6 +98,30 @@ static void assert_all(const double *values, size_t count, double expected, doub
   for (size_t i = 0; i < count; i++) g_assert_cmpfloat_with_epsilon(values[i], expected, tolerance);
 }
 
+/* A turn leaves the shapes as they are, a stretch makes the worst one worse; inside out, an element is worth nothing.
+ */
+static void check_shapes(Block *block) {
+  size_t cells = block->mesh.tetrahedron_count, nodes = block->model->node_count;
+  SporeTetrahedraQuality rest;
+  double worst = HUGE_VAL, stretched = HUGE_VAL, least = HUGE_VAL;
+  spore_tetrahedral_mesh_quality(&block->mesh, &rest);
+  deform(block, turn());
+  spore_cell_fields_shape(block->cells, block->values);
+  for (size_t i = 0; i < cells; i++) worst = fmin(worst, block->values[i]);
+  g_assert_cmpfloat(worst, >, 0);
+  g_assert_cmpfloat(worst, <=, rest.min_dihedral_deg + 1e-6);
+  spore_cell_fields_least(block->cells, block->values, nodes, block->nodes);
+  for (size_t i = 0; i < nodes; i++) least = fmin(least, block->nodes[i]);
+  g_assert_cmpfloat(least, ==, worst);
+  deform(block, spore_mat3_diagonal(3, 1.0 / 3, 1));
+  spore_cell_fields_shape(block->cells, block->values);
+  for (size_t i = 0; i < cells; i++) stretched = fmin(stretched, block->values[i]);
+  g_assert_cmpfloat(stretched, <, worst);
+  deform(block, spore_mat3_diagonal(-1, 1, 1));
+  spore_cell_fields_shape(block->cells, block->values);
+  assert_all(block->values, cells, 0, 1e-12);
+}
+
 static void check_stretched(Block *block) {
   double strain = (LONGER * LONGER - 1) / 2, stress = expected_stress(block->type);
   size_t cells = block->mesh.tetrahedron_count, nodes = block->model->node_count;
@@ -161,6 +185,7 @@ static void test_block(gconstpointer data) {
     Block block = block_new(type, variant, FALSE);
     check_rigid(&block);
     check_extremes(&block);
+    check_shapes(&block);
     check_stretched(&block);
     block_free(&block);
   }

@@ -1369,13 +1369,15 @@ def render_colours_what_is_strained():
     assert stress[1] == own[1], "a net of springs has no stress"
     answer = report("render", SCENES / "cut-ovary.spore", "-o", picture, "--size", "64x64", "--field", "velocity", "-t", "0.02")
     assert answer["field"] == "velocity" and answer["field_end"] >= 0.001, answer
-    refuses("render", net, "-o", picture, "--field", "heat", says=["'heat'", "strain, stress, velocity or level"])
+    refuses("render", net, "-o", picture, "--field", "heat", says=["'heat'", "expected one of: strain, stress, velocity, level, cells"])
     said = colours("level", "--spheres", "--contacts")[0]
     assert "Level of detail: nothing here has several levels\n" in said, said
     assert re.search(r"Contact force on a sphere: 0 to 0.01 N \(scale follows the state\)\n", said), said
     assert re.search(r"Contact forces: 1 N is a line of .*; (nothing touches now|largest now: .* N)\n", said), said
     said = spore("render", SCENES / "levels.spore", "-o", picture, "--size", "64x64", "--field", "level", "--spheres").stdout
     assert "Level of detail: coarse to fine\n" in said and re.search(r"Depth error: 0 to \S+ ", said), said
+    said = spore("render", SCENES / "cut-ovary.spore", "-o", picture, "--size", "64x64", "--field", "cells").stdout
+    assert "Least angle of the worst cell: 0 to 60° (fixed scale)" in said, said
     refuses("render", net, "-o", WORK / "field.webm", "-t", "1", "--field", "strain", says=["one scale", "--field-end"])
     refuses("render", net, "-o", picture, "--field-end", "1", says=["--field as well"])
 

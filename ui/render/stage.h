@@ -15,6 +15,7 @@ typedef enum SporeStageField {
   SPORE_FIELD_STRESS,   /* von Mises' stress of Cauchy's stress, by the body's own law, Pa */
   SPORE_FIELD_VELOCITY, /* speed, m/s */
   SPORE_FIELD_LEVEL,    /* level of detail, of bodies that have several */
+  SPORE_FIELD_CELLS,    /* shape of the worst cell there as it is now (spore_tetrahedron_quality), degrees */
   SPORE_FIELD_COUNT
 } SporeStageField;
 extern const char *const spore_stage_field_names[]; /* by field, then NULL; for options and actions */

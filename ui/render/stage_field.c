@@ -1,5 +1,5 @@
-/* Strain, stress and velocity as colours of the surfaces of soft bodies. All of it is computed from snapshots, on the
- * thread that draws, and only while it is shown. */
+/* Strain, stress, velocity and the shape of cells as colours of the surfaces of soft bodies. All of it is computed from
+ * snapshots, on the thread that draws, and only while it is shown. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
@@ -10,20 +10,19 @@
 #include "core/scene/schema_fields.h"
 #include "ui/render/stage_body.h"
 
-#define MOMENT_S 1e-6  /* over which points that follow frames are moved along v */
+#define MOMENT_S 1e-6 /* over which points that follow frames are moved along v */
+#define GOOD_CELL_DEG 60.0
 #define NAMES_SHOWN 2u /* bodies that a legend names */
 
-const char *const spore_stage_field_names[] = {"none", "strain", "stress", "velocity", "level", NULL};
+const char *const spore_stage_field_names[] = {"none", "strain", "stress", "velocity", "level", "cells", NULL};
 
 /* What is measured; the scale's end is never less than `least`, so that rounding at rest shows nothing. */
 static const struct {
   const char *label;
   double least;
-} fields[SPORE_FIELD_COUNT] = {{NULL, 0},
-                               {N_("Largest strain (Green)"), 0.01},
-                               {N_("Stress, von Mises (Cauchy)"), 1},
-                               {N_("Speed"), 1e-3},
-                               {N_("Level of detail"), SPORE_LOD_FINE}};
+} fields[SPORE_FIELD_COUNT] = {
+    {NULL, 0},           {N_("Largest strain (Green)"), 0.01},    {N_("Stress, von Mises (Cauchy)"), 1},
+    {N_("Speed"), 1e-3}, {N_("Level of detail"), SPORE_LOD_FINE}, {N_("Least angle of the worst cell"), GOOD_CELL_DEG}};
 
 /* Of a body, while colours are shown. */
 struct SporeStageShade {
@@ -113,11 +112,16 @@ static gboolean shade_by_cells(const SporeStage *stage, const SporeStageBody *bo
   g_autofree double *cells = g_new(double, spore_cell_fields_count(shade->cells));
   spore_cell_fields_take(shade->cells, splits ? snapshot->cuts.corners + 4 * start : NULL,
                          snapshot->q + body->q_offset);
-  if (stage->options.field == SPORE_FIELD_STRESS) spore_cell_fields_stress(shade->cells, cells);
-  else spore_cell_fields_strain(shade->cells, cells);
   shade->node_count = body->q_count / 3;
   shade->nodes = g_new(double, shade->node_count);
-  spore_cell_fields_spread(shade->cells, cells, shade->node_count, shade->nodes);
+  if (stage->options.field == SPORE_FIELD_CELLS) {
+    spore_cell_fields_shape(shade->cells, cells);
+    spore_cell_fields_least(shade->cells, cells, shade->node_count, shade->nodes);
+  } else {
+    if (stage->options.field == SPORE_FIELD_STRESS) spore_cell_fields_stress(shade->cells, cells);
+    else spore_cell_fields_strain(shade->cells, cells);
+    spore_cell_fields_spread(shade->cells, cells, shade->node_count, shade->nodes);
+  }
   carry(mapping, shade->nodes, shade->values);
   return TRUE;
 }
@@ -206,6 +210,7 @@ static gboolean measure(const SporeStage *stage, SporeStageBody *body, const Spo
   case SPORE_FIELD_STRAIN:
     return shade_by_cells(stage, body, model, snapshot) || shade_by_surface(body);
   case SPORE_FIELD_STRESS:
+  case SPORE_FIELD_CELLS:
     return shade_by_cells(stage, body, model, snapshot);
   case SPORE_FIELD_LEVEL:
     return shade_by_level(stage, body);
@@ -238,6 +243,7 @@ static double find_end(const SporeStage *stage) {
   double most = fields[stage->options.field].least;
   if (stage->options.field == SPORE_FIELD_LEVEL) return most;
   if (stage->options.field_end > 0) return stage->options.field_end;
+  if (stage->options.field == SPORE_FIELD_CELLS) return most; /* there is a good end, whatever the state */
   for (guint i = 0; i < stage->bodies->len; i++) {
     const SporeStageBody *body = stage->bodies->pdata[i];
     if (body->shade && spore_stage_shows(stage, body->object))
@@ -289,6 +295,8 @@ static char *figure_of(SporeStageField field, double value) {
     return value >= 1e6   ? g_strdup_printf("%.3g MPa", value / 1e6)
            : value >= 1e3 ? g_strdup_printf("%.3g kPa", value / 1e3)
                           : g_strdup_printf("%.3g Pa", value);
+  case SPORE_FIELD_CELLS:
+    return g_strdup_printf("%.3g°", value);
   default:
     return value < 1 ? g_strdup_printf("%.3g mm/s", value * 1e3) : g_strdup_printf("%.3g m/s", value);
   }
@@ -339,11 +347,12 @@ gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend) {
   g_autofree char *without = name_uncoloured(stage);
   legend->low = g_strdup("0");
   legend->high = any_coloured(stage) ? figure_of(field, stage->field_end) : NULL;
-  if (legend->high)
-    legend->range = g_strdup(stage->options.field_end > 0 ? _("fixed scale") : _("scale follows the state"));
+  gboolean fixed = stage->options.field_end > 0 || field == SPORE_FIELD_CELLS;
+  if (legend->high) legend->range = g_strdup(fixed ? _("fixed scale") : _("scale follows the state"));
   if (without)
-    legend->without = field == SPORE_FIELD_STRESS ? g_strdup_printf(_("no stress in its law: %s"), without)
-                                                  : g_strdup_printf(_("not known of: %s"), without);
+    legend->without = field == SPORE_FIELD_STRESS  ? g_strdup_printf(_("no stress in its law: %s"), without)
+                      : field == SPORE_FIELD_CELLS ? g_strdup_printf(_("without cells: %s"), without)
+                                                   : g_strdup_printf(_("not known of: %s"), without);
   else if (!(stage->field_end > 0)) legend->without = g_strdup(_("known once the scene runs"));
   else if (!legend->high) legend->without = g_strdup(_("nothing here is soft"));
   legend->end = stage->field_end;
