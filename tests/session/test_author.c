@@ -15,6 +15,7 @@
 #include "core/author/edits.h"
 #include "core/author/instrument_edits.h"
 #include "core/author/generated_edits.h"
+#include "ui/document/free-place.h"
 #include "ui/document/hand-edit.h"
 #include "ui/document/hands.h"
 #include "ui/document/number-text.h"
@@ -924,6 +925,29 @@ static void test_loop_gaps(void) {
   g_assert_cmpuint(gap_of("held")->count, ==, 1);
 }
 
+/* Boxes are laid in a small view with tools above, figures below and a cube: each apart from all that lies there and
+ * within the margin, from the lower right on; what has no room is refused. */
+static void test_free_place(void) {
+  SporePlace at[8] = {{12, 12, 332, 90}, {284, 12, 60, 60}, {12, 240, 150, 48}};
+  SporeAround view = {.width = 356, .height = 300, .gap = 8, .margin = 12, .count = 3, .at = at};
+  SporePlace box = {.width = 150, .height = 40};
+  for (guint laid = 0; laid < 5; laid++) {
+    g_assert_true(spore_free_place_find(&view, &box));
+    g_assert_cmpint(box.x, >=, 12);
+    g_assert_cmpint(box.x + box.width, <=, 344);
+    g_assert_cmpint(box.y + box.height, <=, 288);
+    for (guint i = 0; i < view.count; i++)
+      g_assert_true(box.x + box.width + 8 <= at[i].x || at[i].x + at[i].width + 8 <= box.x ||
+                    box.y + box.height + 8 <= at[i].y || at[i].y + at[i].height + 8 <= box.y);
+    if (laid == 0) g_assert_cmpint(box.x + box.width + 1000 * (box.y + box.height), ==, 344 + 1000 * 288);
+    at[view.count++] = box;
+  }
+  box = (SporePlace){.width = 150, .height = 80};
+  g_assert_false(spore_free_place_find(&view, &box));
+  view.count = 0;
+  g_assert_true(spore_free_place_find(&view, &box));
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -971,6 +995,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/author/angle-text", test_angle_text);
   g_test_add_func("/author/flow-text", test_flow_text);
   g_test_add_func("/author/loop-gaps", test_loop_gaps);
+  g_test_add_func("/author/free-place", test_free_place);
   g_test_add_func("/author/length-text", test_length_text);
   int status = g_test_run();
   g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;

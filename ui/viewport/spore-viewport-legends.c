@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "ui/document/free-place.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/spore-viewport-private.h"
 
@@ -29,13 +30,13 @@ typedef struct Size {
 typedef struct Legend {
   SporeStageLegend of;
   gboolean tint; /* the bar shows the tint, else the scale of colours */
-  GdkRectangle at;
+  SporePlace at;
 } Legend;
 
 /* Everything that a legend must not lie on. */
 typedef struct Around {
   guint count;
-  GdkRectangle at[MOST_AROUND];
+  SporePlace at[MOST_AROUND];
 } Around;
 
 /* What there is to say. */
@@ -114,8 +115,7 @@ static int height_of(const Legend *legend, const Size *size) {
 /* Places. */
 
 static void add_around(SporeViewport *self, Around *around, GtkWidget *widget) {
-  GdkRectangle at;
-  gtk_widget_get_allocation(widget, &at);
+  SporePlace at = {.width = gtk_widget_get_allocated_width(widget), .height = gtk_widget_get_allocated_height(widget)};
   if (around->count == MOST_AROUND || at.width <= 1 ||
       !gtk_widget_translate_coordinates(widget, self->area, 0, 0, &at.x, &at.y))
     return;
@@ -139,38 +139,14 @@ static void look_around(SporeViewport *self, Around *around, GtkWidget *holder) 
   }
 }
 
-static gboolean is_free(const Around *around, const GdkRectangle *at, int width, int height) {
-  if (at->x < MARGIN || at->y < MARGIN || at->x + at->width > width - MARGIN || at->y + at->height > height - MARGIN)
-    return FALSE;
-  const GdkRectangle wide = {at->x - GAP + 1, at->y - GAP + 1, at->width + 2 * GAP - 2, at->height + 2 * GAP - 2};
-  for (guint i = 0; i < around->count; i++)
-    if (gdk_rectangle_intersect(&wide, &around->at[i], NULL)) return FALSE;
-  return TRUE;
-}
-
-/* The place farthest to the right, and there the lowest, which touches the side of the view or what lies around. */
-static gboolean find_place(const Around *around, int width, int height, GdkRectangle *at) {
-  GdkRectangle best = {.x = -1};
-  for (guint i = 0; i <= around->count; i++)
-    for (guint k = 0; k <= around->count; k++) {
-      GdkRectangle tried = *at;
-      tried.x = (i < around->count ? around->at[i].x - GAP : width - MARGIN) - at->width;
-      tried.y = (k < around->count ? around->at[k].y - GAP : height - MARGIN) - at->height;
-      gboolean better = tried.x > best.x || (tried.x == best.x && tried.y > best.y);
-      if (better && is_free(around, &tried, width, height)) best = tried;
-    }
-  if (best.x < 0) return FALSE;
-  *at = best;
-  return TRUE;
-}
-
 /* Lays the legends; returns how many found a place, which come first then. */
 static guint lay(Around around, Legend *legends, guint count, const Size *size, int width, int height) {
   guint laid = 0;
-  for (guint i = 0; i < count; i++) {
+  for (guint i = 0; i < count && around.count < MOST_AROUND; i++) {
     Legend legend = legends[i];
     legend.at.width = (int)size->width, legend.at.height = height_of(&legend, size);
-    if (around.count == MOST_AROUND || !find_place(&around, width, height, &legend.at)) continue;
+    const SporeAround whole = {width, height, GAP, MARGIN, around.count, around.at};
+    if (!spore_free_place_find(&whole, &legend.at)) continue;
     around.at[around.count++] = legend.at;
     legends[i] = legends[laid];
     legends[laid++] = legend;
@@ -180,7 +156,7 @@ static guint lay(Around around, Legend *legends, guint count, const Size *size, 
 
 /* Drawing. */
 
-static void draw_box(SporeViewport *self, cairo_t *cr, const GdkRectangle *at) {
+static void draw_box(SporeViewport *self, cairo_t *cr, const SporePlace *at) {
   spore_viewport_set_ground(self, cr);
   cairo_rectangle(cr, at->x, at->y, at->width, at->height);
   cairo_fill(cr);
