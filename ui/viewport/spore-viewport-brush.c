@@ -110,13 +110,12 @@ static void draw_dabs(SporeViewport *self, cairo_t *cr) {
     if (!spore_viewport_project(self, spore_pose_apply(pose, spore_vec3_load(spore_brush_numbers(balls) + 4 * i)), &x,
                                 &y))
       continue;
-    cairo_new_path(cr);
-    cairo_arc(cr, x, y, DOT_PIXELS, 0, 2 * G_PI);
-    cairo_set_source_rgba(cr, 1, 1, 1, 0.6);
-    cairo_fill_preserve(cr);
-    cairo_set_source_rgba(cr, 0, 0, 0, 0.5);
-    cairo_set_line_width(cr, 1);
-    cairo_stroke(cr);
+    for (int bright = 0; bright < 2; bright++) {
+      cairo_new_path(cr);
+      cairo_arc(cr, x, y, bright ? DOT_PIXELS : DOT_PIXELS + 1, 0, 2 * G_PI);
+      cairo_set_source_rgba(cr, bright, bright, bright, bright ? 0.8 : 0.5);
+      cairo_fill(cr);
+    }
   }
 }
 
