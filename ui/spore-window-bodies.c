@@ -6,7 +6,7 @@
 #include "core/author/order_edits.h"
 #include "core/author/removal.h"
 #include "core/author/soft_edits.h"
-#include "ui/document/locks.h"
+#include "ui/document/kept-bodies.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
@@ -119,10 +119,15 @@ static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer dat
 
 /* Hiding. */
 
-static void shown_changed(SporeWindow *self) {
+static void show_hidden(SporeWindow *self) {
   spore_outliner_set_hidden(SPORE_OUTLINER(self->outliner), spore_viewport_get_hidden(SPORE_VIEWPORT(self->viewport)));
   spore_window_update_actions(self);
   spore_window_show_hint(self);
+}
+
+static void shown_changed(SporeWindow *self) {
+  show_hidden(self);
+  spore_window_keep_marks(self);
 }
 
 /* The selected bodies are hidden, or shown alone. */
@@ -157,26 +162,36 @@ static void show_locks(SporeWindow *self) {
   spore_window_show_hint(self);
 }
 
-void spore_window_keep_locks(SporeWindow *self) {
+/* Locks, and what is hidden, are kept with the scene's file. */
+
+static void keep(SporeWindow *self, const char *mark, GHashTable *marked) {
   const char *scene = spore_editor_document_get_save_file(self->document);
   g_autoptr(GError) error = NULL;
-  if (scene &&
-      !spore_locks_keep(scene, document_of(self), spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)), &error) &&
-      error)
+  if (scene && !spore_kept_bodies_write(scene, mark, document_of(self), marked, &error) && error)
     spore_window_log(self, "%s", error->message);
 }
 
-void spore_window_restore_locks(SporeWindow *self) {
+void spore_window_keep_marks(SporeWindow *self) {
+  keep(self, SPORE_KEPT_LOCKED, spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)));
+  keep(self, SPORE_KEPT_HIDDEN, spore_viewport_get_hidden(SPORE_VIEWPORT(self->viewport)));
+}
+
+static GPtrArray *kept(SporeWindow *self, const char *mark) {
   const char *scene = spore_editor_document_get_save_file(self->document);
-  g_autoptr(GPtrArray) bodies = scene ? spore_locks_read(scene, document_of(self)) : g_ptr_array_new();
-  if (bodies->len == 0) return;
-  spore_viewport_lock_or_unlock(SPORE_VIEWPORT(self->viewport), bodies);
-  show_locks(self);
+  return scene ? spore_kept_bodies_read(scene, mark, document_of(self)) : g_ptr_array_new();
+}
+
+void spore_window_restore_marks(SporeWindow *self) {
+  g_autoptr(GPtrArray) locked = kept(self, SPORE_KEPT_LOCKED), hidden = kept(self, SPORE_KEPT_HIDDEN);
+  if (locked->len > 0) spore_viewport_lock_or_unlock(SPORE_VIEWPORT(self->viewport), locked);
+  if (hidden->len > 0) spore_viewport_hide(SPORE_VIEWPORT(self->viewport), hidden);
+  if (locked->len > 0) show_locks(self);
+  if (hidden->len > 0) show_hidden(self);
 }
 
 static void locks_changed(SporeWindow *self) {
   show_locks(self);
-  spore_window_keep_locks(self);
+  spore_window_keep_marks(self);
 }
 
 static void act_lock(GSimpleAction *action, GVariant *parameter, gpointer data) {

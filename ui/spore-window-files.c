@@ -165,7 +165,7 @@ static gboolean save_to(SporeWindow *self, const char *file) {
   g_autoptr(GError) error = NULL;
   if (!spore_editor_document_save(self->document, file, &error)) return spore_window_wrote(self, file, error);
   spore_recovery_keep(self->recovery, self->document, NULL);
-  spore_window_keep_locks(self); /* under the names that bodies have now */
+  spore_window_keep_marks(self); /* under the names that bodies have now */
   spore_window_remember(spore_editor_document_get_save_file(self->document));
   return spore_window_wrote(self, spore_editor_document_get_save_file(self->document), NULL);
 }
@@ -240,7 +240,7 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
   if (work->untitled) spore_editor_document_set_untitled(self->document);
   else if (!work->recovered) spore_window_remember(work->file);
   self->fresh = FALSE;
-  spore_window_restore_locks(self);
+  spore_window_restore_marks(self);
   spore_window_update_actions(self);
   g_signal_emit_by_name(self->document, "history-changed");
   spore_window_log(self, _("Opened %s"), work->original ? work->original : work->file);

@@ -148,9 +148,11 @@ void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 
 /* spore-window-bodies.c: what is done to all that is selected. */
 void spore_window_add_body_actions(SporeWindow *self);
-/* Keeps what is locked for the next time that the scene's file is opened, or locks what was kept. */
-void spore_window_keep_locks(SporeWindow *self);
-void spore_window_restore_locks(SporeWindow *self);
+/* Keeps what is locked and what is hidden for the next time that the scene's file is opened, or brings back what was
+ * kept.
+ */
+void spore_window_keep_marks(SporeWindow *self);
+void spore_window_restore_marks(SporeWindow *self);
 /* bodies: of SporeObject *. */
 void spore_window_select(SporeWindow *self, const GPtrArray *bodies);
 

@@ -2242,7 +2242,7 @@ def folders_of_the_outliner(editor, row_at):
 
 @check
 def rows_of_the_outliner_are_ordered():
-    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own; a click in the view goes through what is locked, which it still is when the scene is opened again; bodies are put into folders, which are folded."""
+    """Alt with the arrows, the menu of the Menu key, and dragging put a row elsewhere in its list, as one step; cameras have a heading of their own; a click in the view goes through what is locked, which it still is when the scene is opened again, and what is hidden too; bodies are put into folders, which are folded."""
     path = write_scene("ordered", "<rigid_body/>")
     path.write_text(path.read_text().replace("</bodies>", '<body name="third" role="unmovable"/></bodies><tools><camera name="eye"/></tools>'))
     row_at = lambda name: editor.place(ui.wait(lambda: editor.row(name), name))
@@ -2251,6 +2251,9 @@ def rows_of_the_outliner_are_ordered():
         assert row_at("Cameras")[1] < row_at("eye")[1] < row_at("Effects")[1], "the camera stands below its heading"
         assert not editor.enabled("unlock-all")
         locked_bodies_are_looked_through(editor)
+        editor.act("select", "s", "bodies/floor")
+        editor.act("hide")
+        editor.find("label", "^1 body is hidden, A shows all")
         editor.act("select", "s", "bodies/third")
         editor.act("lock")
         editor.focus()
@@ -2274,6 +2277,9 @@ def rows_of_the_outliner_are_ordered():
         folders_of_the_outliner(editor, row_at)
     with start(path) as editor:
         ui.wait(lambda: editor.enabled("unlock-all"), "the lock to be there again")
+        editor.find("label", "^1 body is hidden, A shows all")
+        editor.act("show-all")
+        ui.wait(lambda: not editor.look("label", "is hidden"), "it to be shown")
         editor.act("unlock-all")
         ui.wait(lambda: not editor.enabled("unlock-all"), "the lock to go")
 
