@@ -94,6 +94,7 @@ static void report_diagnostics(SporeCli *cli, SporeDocument *document, const Spo
     report_remark(cli, body->name, option);
     report_remark(cli, body->name, doubt);
     report_remark(cli, body->name, body->untextured);
+    report_remark(cli, body->name, body->unclear);
   }
   spore_cli_diagnostics(cli, document);
   spore_cli_close_array(cli);

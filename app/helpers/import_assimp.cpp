@@ -121,6 +121,7 @@ struct Look {
   float colour[3] = {1, 1, 1}; /* sRGB; white where the file says none, as OBJ and glTF have it */
   bool coloured = false;       /* the file says it */
   float opacity = 1;
+  bool mapped = false; /* a picture says the opacity */
   uint32_t dress = SPORE_IMPORT_BARE;
   bool operator==(const Look &other) const {
     return source == other.source && dress == other.dress && coloured == other.coloured &&
@@ -179,6 +180,7 @@ void take_colour(const aiScene &scene, const aiMesh &mesh, const Request &reques
     if (said->coloured) std::copy(said->colour, said->colour + 3, look.colour);
     look.coloured = said->coloured;
     if (said->opacity > 0) look.opacity = said->opacity;
+    look.mapped = said->mapped;
     return;
   }
   const aiMaterial *material = material_of(scene, mesh);
@@ -278,6 +280,11 @@ void end_part(const aiScene &scene, const aiNode &node, const std::string &group
   std::copy(largest->look.colour, largest->look.colour + 3, part.colour);
   part.coloured = largest->look.coloured;
   part.opacity = largest->look.opacity;
+  for (const Range &range : mesh.ranges) {
+    if (range.part != mesh.parts.size()) continue;
+    if (range.look.opacity != part.opacity) part.unclear |= SPORE_IMPORT_OPACITIES;
+    if (range.look.mapped) part.unclear |= SPORE_IMPORT_OPACITY_MAP;
+  }
   mesh.parts.push_back(part);
 }
 

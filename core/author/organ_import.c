@@ -49,6 +49,7 @@ static void drop_texture(SporeImportBody *body) {
 static void free_body(SporeImportBody *body) {
   drop_texture(body);
   g_free(body->untextured);
+  g_free(body->unclear);
   g_free(body->name);
   g_free(body->group);
   spore_triangle_mesh_clear(&body->mesh);
@@ -107,6 +108,7 @@ static void add_body(Intake *intake, const char *name, const SporeImportFile *so
   if (part) memcpy(body->colour, part->colour, sizeof body->colour);
   body->texture = texture ? g_rc_box_acquire(texture) : NULL;
   body->untextured = g_strdup(part ? part->untextured : NULL);
+  body->unclear = g_strdup(part ? part->unclear : NULL);
   body->source = source;
   body->mesh = *mesh;
   body->changed = changed;

@@ -58,7 +58,7 @@ typedef struct SporeImportBody {
   double opacity;              /* as SporeMeshPart.opacity */
   SporeImportTexture *texture; /* NULL: none */
   float *places;               /* then of the corners of the mesh's triangles, x 3 x 2 */
-  char *untextured;            /* as SporeMeshPart.untextured */
+  char *untextured, *unclear;  /* as of SporeMeshPart */
   bool changed;                /* its mesh differs from the mesh in the file */
   SporeTriangleMesh mesh;      /* m, SPORE's axes */
   SporeMeshFigures as_read;    /* after division or joining */

@@ -29,6 +29,7 @@ typedef struct SporeImportMaterial {
   float colour[3];           /* sRGB from 0 to 1; used where coloured */
   uint32_t coloured;         /* the file says the colour */
   float opacity;             /* 0 to 1; 0: the file does not say it */
+  uint32_t mapped;           /* a picture says it, which is not read */
   uint32_t picture;          /* number of the picture from 1; 0: it wears none */
   float scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
   char name[128];            /* cut to fit */
@@ -51,12 +52,19 @@ enum {
   SPORE_IMPORT_UNKNOWN   /* a picture that is not there, or too large */
 };
 
+/* What of its opacity a part does not show, as bits. */
+enum {
+  SPORE_IMPORT_OPACITIES = 1,
+  /* its materials differ in it */ SPORE_IMPORT_OPACITY_MAP = 2 /* a picture says it */
+};
+
 /* A sub-mesh: its number of triangles. The triangles of the parts follow each other. */
 typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
   float colour[3];         /* the base colour of its material, sRGB from 0 to 1; used where coloured */
   uint32_t coloured;       /* the file says the colour */
   float opacity;           /* 0 to 1 */
+  uint32_t unclear;        /* SPORE_IMPORT_OPACITIES, SPORE_IMPORT_OPACITY_MAP */
   uint32_t dress;          /* SPORE_IMPORT_BARE ...; the colour is what the picture is multiplied by */
   uint32_t picture;        /* number of the picture from 1 where it is worn, else 0 */
   uint32_t missing;        /* number from 1 of a picture of the request that is not part of it; 0: none */

@@ -18,6 +18,7 @@ typedef struct SporeMeshMaterial {
   double colour[3];           /* sRGB, 0 to 1 */
   bool coloured;              /* the file says the colour */
   double opacity;             /* 0 to 1; 0: the file does not say it */
+  bool mapped;                /* a picture says it, which is not read */
   guint picture;              /* number in `pictures`, from 1; 0: none */
   double scale[2], offset[2]; /* a place in the picture is that of the mesh (from below) times scale, and offset */
 } SporeMeshMaterial;
@@ -46,8 +47,8 @@ guint spore_mesh_beside_picture(SporeMeshBeside *beside, const char *file, const
 char *spore_mesh_beside_reason(const char *file, const GError *error);
 /* Reads the texts of materials that the text of an OBJ names. */
 void spore_mesh_beside_materials(SporeMeshBeside *beside, const char *file, const char *text, gsize size);
-/* Reads such a text (Wavefront MTL: newmtl, Kd, d and map_Kd). folder: that its pictures are named from, "" or with a
- * slash at its end. */
+/* Reads such a text (Wavefront MTL: newmtl, Kd, d or Tr, and map_Kd). folder: that its pictures are named from, "" or
+ * with a slash at its end. */
 void spore_mesh_beside_describe(SporeMeshBeside *beside, const char *file, const char *folder, const char *text,
                                 gsize size);
 /* Reads the pictures that the JSON of a glTF names. */

@@ -184,7 +184,7 @@ static gboolean read_answer(const Given *given, GBytes *answer, Raw *raw, GError
 
 static void append_material(GByteArray *request, const SporeMeshMaterial *from) {
   SporeImportMaterial material = {
-      .coloured = from->coloured, .picture = from->picture, .opacity = (float)from->opacity};
+      .coloured = from->coloured, .picture = from->picture, .opacity = (float)from->opacity, .mapped = from->mapped};
   for (int k = 0; k < 3; k++) material.colour[k] = (float)from->colour[k];
   for (int k = 0; k < 2; k++) material.scale[k] = (float)from->scale[k], material.offset[k] = (float)from->offset[k];
   g_strlcpy(material.name, from->name, sizeof material.name);
@@ -347,6 +347,7 @@ void spore_mesh_part_free(SporeMeshPart *part) {
   g_clear_pointer(&part->picture, g_bytes_unref);
   spore_free(part->places);
   g_free(part->untextured);
+  g_free(part->unclear);
   g_free(part);
 }
 
@@ -360,9 +361,20 @@ static const SporeImportPart *said_of(const Raw *raw, gboolean apart, guint32 nu
   return said;
 }
 
+/* What of its opacity the part does not show; NULL: nothing. g_free. */
+static char *why_unclear(const SporeImportPart *said) {
+  if (said->unclear & SPORE_IMPORT_OPACITY_MAP)
+    return g_strdup(_("a picture says its opacity (map_d), which is not read: it is as opaque as its material says; "
+                      "give the body the opacity that it should have, or split it where that changes"));
+  if (said->unclear & SPORE_IMPORT_OPACITIES)
+    return g_strdup(_("its materials differ in opacity, and all of it has that of the largest; split it by material"));
+  return NULL;
+}
+
 /* The helper is not trusted: a colour or an opacity that is none is left out. */
 static void take_colour(const SporeImportPart *said, SporeMeshPart *part) {
   part->coloured = said && said->coloured;
+  part->unclear = said ? why_unclear(said) : NULL;
   part->opacity = said && said->opacity > 0 && said->opacity < 1 ? (double)said->opacity : 1;
   for (int k = 0; k < 3 && said; k++) {
     part->colour[k] = said->colour[k];

@@ -49,6 +49,7 @@ typedef struct SporeMeshPart {
                        spore_free; NULL: it wears none */
   char *untextured; /* what of its pictures is not taken as the file brings it, and why: "what; remedy", translated;
                        NULL: nothing */
+  char *unclear;    /* what of its opacity is not taken, and what to do, as `untextured` */
 } SporeMeshPart;
 void spore_mesh_part_free(SporeMeshPart *part);
 #define SPORE_MESH_PARTS_MAXIMUM 500u

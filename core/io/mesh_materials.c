@@ -113,6 +113,13 @@ static void read_opacity(SporeMeshMaterial *material, const char *text) {
   if (number > 0) material->opacity = MIN(number, 1);
 }
 
+/* Tr, as much as d lacks of 1; where both are said, d holds: some programs write the same number twice. */
+static void read_transparency(SporeMeshMaterial *material, const char *text) {
+  if (material->opacity > 0 || !is_number(text)) return;
+  double number = g_ascii_strtod(text, NULL);
+  if (number >= 0 && number < 1) material->opacity = 1 - number;
+}
+
 /* One line of a material, or the beginning of the next one. folder: that pictures are named from, "" or with a slash.
  */
 static void read_line(SporeMeshBeside *beside, const char *file, const char *folder, const char *line,
@@ -127,6 +134,8 @@ static void read_line(SporeMeshBeside *beside, const char *file, const char *fol
   }
   if (colour && *material) read_colour(*material, colour);
   if (opacity && *material) read_opacity(*material, opacity);
+  if (behind(line, "Tr") && *material) read_transparency(*material, behind(line, "Tr"));
+  if (behind(line, "map_d") && *material) (*material)->mapped = true;
   if (!picture || !*material) return;
   g_autofree char *named = path_of(behind_options(picture, *material)), *path = g_strconcat(folder, named, NULL);
   (*material)->picture = spore_mesh_beside_picture(beside, file, path, path);

@@ -528,7 +528,7 @@ def import_takes_pictures_beside_the_mesh():
 
 @check
 def import_makes_one_picture_of_several():
-    """A mesh of several materials wears one picture made of theirs and of plain colours, repeated where they repeat; what is missing or too small is said."""
+    """A mesh of several materials wears one picture made of theirs and of plain colours, repeated where they repeat; what is missing or too small is said. Its opacity is d or what Tr leaves; what of it is not shown is said."""
     if "assimp" not in FEATURES or "render" not in FEATURES:
         raise Skip("built without assimp or libpng")
     vertices, triangles = shapes.sphere()
@@ -569,6 +569,12 @@ def import_makes_one_picture_of_several():
     file("mix/worn.mtl", "newmtl skin\nKd 1 0 0\nnewmtl bone\nKd 1 0 0\nnewmtl fat\nKd 1 0 0\n")
     spore("import", "mix/worn.obj", "-o", "mix/f/f.spore")
     assert visual_of("mix/f/f.spore").get("texture") is None and visual_of("mix/f/f.spore").get("colour") == "1 0 0"
+    for case, more, opacity, word in (("g", ("d 0.5",) * 3, "0.5", None), ("h", ("Tr 0.25",) * 3, "0.75", None), ("i", ("Tr 0.25\nd 0.5",) * 3, "0.5", None),
+                                      ("j", ("d 0.5", "d 0.5", "d 0.25"), "0.5", "differ in opacity"), ("k", ("", "map_d skin.png", ""), None, "map_d"), ("l", ("Tr 0",) * 3, None, None)):
+        file("mix/worn.mtl", "".join(f"newmtl {name}\nKd 1 0 0\n{said}\n" for name, said in zip(("skin", "fat", "bone"), more)))
+        found = report("import", "mix/worn.obj", "-o", f"mix/{case}/{case}.spore")["diagnostics"]
+        assert visual_of(f"mix/{case}/{case}.spore").get("opacity") == opacity, (case, found)
+        assert [word in d["message"] for d in found] == [True] if word else not found, (case, found)
 
 
 @check

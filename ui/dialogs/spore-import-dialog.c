@@ -116,6 +116,7 @@ static void show_warnings(SporeImportDialog *self) {
     append_line(text, body->name, size);
     append_line(text, body->name, burden);
     append_line(text, body->name, body->untextured);
+    append_line(text, body->name, body->unclear);
     heavy = heavy || burden;
   }
   for (guint i = 0; i < self->import->left_out->len; i++)
