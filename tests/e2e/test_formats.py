@@ -146,8 +146,12 @@ def vtk_reads_every_shipped_scene(*_):
     for scene in scenes:
         series = FOLDER / f"{scene}.pvd"
         export(scene, "vtk", series)
+        if is_sanitized(SPORE):
+            continue  # what VTK reads of the files is seen in the other build
         (_, blocks), = vtk_files.series(series)
         expected[str(FOLDER / scene / f"{scene}-000000.vtm")] = blocks
+    if is_sanitized(SPORE):
+        return
     said = json.loads(run(PYTHON, "-c", READ, *expected))
     kinds = set()
     for file, blocks in expected.items():
@@ -522,7 +526,8 @@ def mujoco_runs_rigid_bodies(*_):
     """MJCF: Debian's MuJoCo loads every shipped scene; mass, inertia, springs and motion of rigid bodies are those of SPORE"""
     if not PROBE:
         raise Skip("libmujoco-dev was not installed when this was built")
-    for scene in sorted(SCENES.glob("*.spore")):
+    scenes = sorted(SCENES.glob("*.spore"))
+    for scene in scenes[::4] if is_sanitized(SPORE) else scenes:
         report = export(scene.stem, "mjcf", FOLDER / "model.xml")
         said = json.loads(run(PROBE, FOLDER / "model.xml", "0.01"))
         lost = [sentence.split(":")[0] for sentence in report["lost"] if "no rigid body" in sentence]
