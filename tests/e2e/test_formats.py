@@ -19,7 +19,7 @@ from xml.etree import ElementTree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
 import vtk_files
-from tap import Skip, alike, check, long_run, main, wait_for_work
+from tap import Skip, alike, check, is_sanitized, long_run, main, wait_for_work
 
 SPORE, SCENES, FEATURES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3].split(",")
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="spore-formats-"))
