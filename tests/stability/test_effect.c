@@ -591,6 +591,36 @@ static void test_seeping(void) {
   rig_free(physical);
 }
 
+/* Blood stains a thread that lies in it, whether the thread resists twist or not. */
+static void test_blood_stains_lines(void) {
+  double stained[2];
+  for (int twists = 0; twists < 2; twists++) {
+    Rig *rig = rig_new();
+    SporeTriangleMesh cube;
+    shape_box(&cube, spore_vec3(0, 0.012, 0), spore_vec3(0.008, 0.008, 0.008));
+    rig->description.gravity = spore_vec3(0, -9.81, 0);
+    rig->description.solver.time_step = 4e-3;
+    SporeModel *blood = rig_fluid_model(&cube, 60, "stain", 10., "temperature", 0.7, "thermostat", 200., NULL);
+    rig_passive(rig, "blood", blood, own_spheres(rig, blood))->effect = true;
+    double *line = SPORE_NEW_ARRAY(double, 4 * 12);
+    for (int i = 0; i < 12; i++)
+      spore_vec3_store(line + 4 * i, spore_vec3(-0.011 + 0.002 * i, 0.002, 0)), line[4 * i + 3] = 1e-3;
+    SporeModel *thread =
+        rig_curve_model(&spore_spline_1d, &(SporeCurve){12, line}, "twist_modulus", twists ? 1e6 : 0., NULL);
+    rig_passive(rig, "thread", thread, own_spheres(rig, thread));
+    rig_unmovable(rig, "floor", rig_floor(rig, 48, 48, 0.002, 0.002));
+    SporeWorld *world = rig_build(rig);
+    rig_run(world, 100);
+    g_test_message("a thread that %s twist is stained by %.3f", twists ? "resists" : "does not resist",
+                   spore_world_stained(world, 1));
+    stained[twists] = spore_world_stained(world, 1);
+    rig_free(rig);
+  }
+  g_assert_cmpfloat(stained[1], >, 0.02);
+  g_assert_cmpfloat(stained[0], >, 0.5 * stained[1]);
+  g_assert_cmpfloat(stained[0], <, 2 * stained[1]);
+}
+
 /* Blood that is put away after .2 s, and what is left of its stain after .4 s more; *hash: of the state then. */
 static double stain_left(Rig *rig, SporeDevice *device, uint64_t *hash) {
   SporeWorld *world = rig_build(rig);
@@ -809,6 +839,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/effect/smoke-hazes", test_smoke_hazes);
   g_test_add_func("/stability/effect/irrigation-washes", test_irrigation_washes);
   g_test_add_func("/stability/effect/dent", test_dent);
-  g_test_add_func("/effect/seeping", test_seeping);
+  g_test_add_func("/stability/effect/seeping", test_seeping);
+  g_test_add_func("/stability/effect/blood-stains-lines", test_blood_stains_lines);
   return g_test_run();
 }

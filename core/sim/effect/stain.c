@@ -143,16 +143,49 @@ static bool lay_places(SporeStainUnit *unit, const SporeSphereSet *set, double s
   return made;
 }
 
-/* What cannot carry the places is not stained. */
+/* The middle of the sphere that each place is on, and how the place leans from there. */
+static double *find_middles(SporeStainUnit *unit, const SporeSphereSet *set, SporeQuat turn) {
+  double *middles = SPORE_NEW_ARRAY(double, 3 * unit->count);
+  unit->lean = middles ? SPORE_NEW_ARRAY(double, 3 * unit->count) : NULL;
+  for (size_t s = 0; unit->lean && s < set->count; s++)
+    for (size_t i = unit->first[s]; i < unit->first[s + 1]; i++) {
+      SporeVec3 middle = spore_vec3_load(set->spheres + 4 * s);
+      spore_vec3_store(middles + 3 * i, middle);
+      SporeVec3 lean = spore_vec3_sub(spore_vec3_load(unit->rest + 3 * i), middle);
+      spore_vec3_store(unit->lean + 3 * i, spore_quat_rotate(turn, lean));
+    }
+  if (unit->lean) return middles;
+  spore_free(middles);
+  return NULL;
+}
+
+/* A line that does not resist twist carries nothing beside its middle: there the spheres carry the places, which stay
+ * on the side that they are on. What cannot carry the spheres either is not stained. False: no memory. */
+static bool map_places(SporeWorld *world, uint32_t index, SporeStainUnit *unit, const SporeSphereSet *set) {
+  SporeError error = SPORE_ERROR_INIT;
+  if (spore_body_map(world, index, SPORE_LOD_FINE, unit->rest, unit->count, world->cancel, &unit->mapping, &error))
+    return true;
+  double *middles = find_middles(unit, set, world->bodies[index].rest_pose.orientation);
+  if (!middles) return false;
+  error = SPORE_ERROR_INIT;
+  if (!spore_body_map(world, index, SPORE_LOD_FINE, middles, unit->count, world->cancel, &unit->mapping, &error))
+    unit->count = 0;
+  spore_free(middles);
+  return true;
+}
+
+static SporeVec3 place_now(const SporeWorld *world, const SporeBody *body, const SporeStainUnit *unit, size_t i) {
+  SporeVec3 at = spore_mapping_position(&unit->mapping, i, world->state.q + body->q_offset);
+  return unit->lean ? spore_vec3_add(at, spore_vec3_load(unit->lean + 3 * i)) : at;
+}
+
 static bool make_unit(SporeWorld *world, uint32_t index, const SporeSphereSet *set, double spacing) {
   SporeStainUnit *unit = &world->stains.units[index];
   const SporeBody *body = &world->bodies[index];
   unit->start = world->stains.count;
   if (!set || set->count == 0 || spore_body_is_fluid(body)) return true;
   if (!lay_places(unit, set, wide_enough(set, spacing))) return false;
-  SporeError error = SPORE_ERROR_INIT;
-  if (!spore_body_map(world, index, SPORE_LOD_FINE, unit->rest, unit->count, world->cancel, &unit->mapping, &error))
-    unit->count = 0;
+  if (!map_places(world, index, unit, set)) return false;
   world->stains.count += unit->count;
   return true;
 }
@@ -189,6 +222,7 @@ void spore_world_clear_stains(SporeWorld *world) {
     spore_free(stains->units[b].rest);
     spore_free(stains->units[b].out);
     spore_free(stains->units[b].first);
+    spore_free(stains->units[b].lean);
     spore_mapping_clear(&stains->units[b].mapping);
   }
   spore_free(stains->units);
@@ -231,7 +265,7 @@ static void wet(SporeWorld *world, const SporeBody *fluid, uint32_t drop, uint32
   if (!(apart < spheres->radius[sphere] + TOUCH * radius)) return;
   size_t local = sphere - body->collision.start;
   for (size_t i = unit->first[local]; i < unit->first[local + 1]; i++) {
-    SporeVec3 place = spore_mapping_position(&unit->mapping, i, world->state.q + body->q_offset);
+    SporeVec3 place = place_now(world, body, unit, i);
     double off = spore_vec3_distance(place, at) / (REACH * radius);
     if (off < 1) wet_place(&world->stains, unit->start + i, rate, fmin(1, 2 * (1 - off)));
   }

@@ -7,11 +7,12 @@
 
 /* The places on a body's spheres that may be stained. */
 typedef struct SporeStainUnit {
-  size_t start, count; /* of its places among all */
-  double *rest;        /* count x 3, body's frame at rest, m */
-  float *out;          /* count x 3: unit vectors out of the spheres that the places are on */
-  uint32_t *first;     /* of each sphere the first of its places, and one more */
-  SporeMapping mapping;
+  size_t start, count;  /* of its places among all */
+  double *rest;         /* count x 3, body's frame at rest, m */
+  float *out;           /* count x 3: unit vectors out of the spheres that the places are on */
+  uint32_t *first;      /* of each sphere the first of its places, and one more */
+  SporeMapping mapping; /* of the places, or of the middles of their spheres */
+  double *lean; /* count x 3: from there to the places, in the scene's axes; NULL: the mapping is of the places */
 } SporeStainUnit;
 
 /* What wets a place in a step. */
