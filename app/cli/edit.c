@@ -352,7 +352,12 @@ static gboolean keep_pose(SporeCli *cli, SporeDocument *document, const char *te
   if (!spore_cli_seconds("--keep-pose", text, &time_s, error) ||
       !spore_edit_keep_pose_after(document, time_s, spore_cli_cancel(), spore_cli_progress(cli), left_out, error))
     return FALSE;
-  for (guint i = 0; i < left_out->len; i++) spore_cli_say(cli, _("not kept: %s\n"), (const char *)left_out->pdata[i]);
+  spore_cli_open_array(cli, "not_kept");
+  for (guint i = 0; i < left_out->len; i++) {
+    spore_cli_text(cli, NULL, left_out->pdata[i]);
+    spore_cli_say(cli, _("not kept: %s\n"), (const char *)left_out->pdata[i]);
+  }
+  spore_cli_close_array(cli);
   note(changed, spore_document_section(document, "bodies"));
   return TRUE;
 }
@@ -450,6 +455,7 @@ int spore_command_edit(SporeCli *cli, int argc, char **argv) {
           "not taken)")},
       {"soft", N_("what was made soft: body, tetrahedra, spheres (0: it had its own), distance as a share of the "
                   "diagonal")},
+      {"not_kept", N_("with --keep-pose: sentences on bodies that do not begin so, and on what is let go")},
       {"changed", N_("paths of what was added, set and deleted")},
       {"diagnostics", N_("what there is to mend in it: place, message, remedy")},
       {NULL, NULL}};

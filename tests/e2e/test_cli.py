@@ -1784,6 +1784,16 @@ def a_grasper_lifts_and_lets_go():
 
 
 @check
+@alike
+def what_a_kept_pose_lacks_is_listed():
+    """A pose that is kept while jaws hold something lists that they let go; one of what holds nothing lists nothing."""
+    lacks = lambda scene, seconds: report("edit", SCENES / f"{scene}.spore", "--keep-pose", seconds, "-o", f"kept/{scene}.spore")["not_kept"]
+    (WORK / "kept").mkdir()
+    assert ["left_clamp" in sentence for sentence in lacks("exercise-clip-and-cut", 2)] == [True]
+    assert lacks("minimal", 0.1) == []
+
+
+@check
 def a_needle_and_a_suction_tube_of_the_library_work():
     """A needle led into the bar pierces it and stays in it; a suction tube takes the particles that it is led to, with its button down alone."""
     bar = slim_bar()
