@@ -219,14 +219,14 @@ static gboolean find_evidence_of(Search *search, const Replay *full, SporeObject
   return evidence->awaited || try_form(search, full, SPORE_NO_BODY, &effect, SPORE_VERDICT_EFFECT, evidence, error);
 }
 
-/* The tools and emitters that have a form as an effect. */
+/* The tools and emitters that have a form as an effect, of which something is seen. */
 static GPtrArray *others_of(SporeDocument *document) {
   static const char *const sections[] = {"tools", "effects"};
   GPtrArray *others = g_ptr_array_new();
   for (gsize k = 0; k < G_N_ELEMENTS(sections); k++) {
     SporeObject *section = spore_document_section(document, sections[k]);
     for (guint i = 0; i < spore_object_child_count(section); i++)
-      if (spore_object_type_child(spore_object_type(spore_object_child(section, i)), "fidelity"))
+      if (spore_fidelity_is_seen(spore_object_child(section, i)))
         g_ptr_array_add(others, spore_object_child(section, i));
   }
   return others;
@@ -243,6 +243,7 @@ static gboolean find(Search *search, GError **error) {
     advice->count = full.points.body_count + search->others->len;
     advice->elements = g_new0(SporeAdviceElement, advice->count);
     good = find_floor(search, &full, &advice->floor, error);
+    advice->floor.chaotic = advice->floor.floor > SPORE_EVIDENCE_TELLING && full.trial.exercise.steps == 0;
   }
   for (gsize k = 0; good && k < full.points.body_count; k++) good = find_evidence(search, &full, k, error);
   for (guint i = 0; good && i < search->others->len; i++) {

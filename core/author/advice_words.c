@@ -10,7 +10,10 @@ static char *praise_of(const SporeEvidence *evidence, SporeVerdict verdict, gboo
       [SPORE_VERDICT_COARSE] = N_("nothing else moves otherwise at its coarsest level"),
       [SPORE_VERDICT_EFFECT] = N_("nothing else moves otherwise where its effect takes its place")};
   const SporeForm *form = &evidence->forms[verdict];
-  GString *text = g_string_new(form->left_out ? _("nothing else moves otherwise without it") : _(unmoved[verdict]));
+  gboolean told = evidence->floor <= SPORE_EVIDENCE_TELLING;
+  GString *text = g_string_new(!told            ? _("how others move with it and without cannot be told from noise")
+                               : form->left_out ? _("nothing else moves otherwise without it")
+                                                : _(unmoved[verdict]));
   if (verdict == SPORE_VERDICT_STILL)
     g_string_append_printf(text, _("; it moves by %.2g %% of its length at most"), 100 * evidence->own_motion);
   if (exercise) g_string_append(text, _("; the exercise has the same steps done and the same score"));
@@ -52,6 +55,10 @@ char *spore_advice_reason(const SporeAdviceElement *element, const SporeExercise
   const SporeEvidence *evidence = &element->evidence;
   if (evidence->held) return g_strdup_printf(_("\"%s\" acts on it"), evidence->held);
   if (evidence->alone) return g_strdup(_("it is all that moves by physics"));
+  if (evidence->chaotic)
+    return g_strdup_printf(_("a start that is a little off, or half the step, moves bodies by %.2g %% of their length: "
+                             "nothing can be told"),
+                           100 * evidence->floor);
   if (evidence->events && !evidence->forms[SPORE_VERDICT_EFFECT].left_out)
     return g_strdup(_("with its effect something else is cut, coagulated, taken, held, lost, or breaks"));
   if (evidence->events)

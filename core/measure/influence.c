@@ -115,7 +115,8 @@ static bool will_do(const SporeEvidence *evidence, SporeVerdict verdict) {
 }
 
 SporeVerdict spore_evidence_verdict(const SporeEvidence *evidence) {
-  if (evidence->held || evidence->alone || evidence->awaited || evidence->events) return SPORE_VERDICT_PHYSICAL;
+  if (evidence->held || evidence->alone || evidence->chaotic || evidence->awaited || evidence->events)
+    return SPORE_VERDICT_PHYSICAL;
   if (will_do(evidence, SPORE_VERDICT_EFFECT)) return SPORE_VERDICT_EFFECT;
   if (evidence->own_motion <= SPORE_EVIDENCE_STILL && will_do(evidence, SPORE_VERDICT_STILL))
     return SPORE_VERDICT_STILL;

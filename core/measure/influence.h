@@ -56,12 +56,15 @@ typedef struct SporeEvidence {
   const char *held;    /* an instrument or a link by that name acts on it, which is a veto; NULL: none */
   bool alone;          /* nothing else moves by physics, and no exercise tells whether an effect will do: a veto */
   const char *awaited; /* a step of the exercise that is done to it, and that the run never did: a veto; NULL: none */
+  bool chaotic;        /* noise alone moves bodies too far to tell, and no exercise tells either: a veto */
   bool events;         /* without it something else breaks, tears or is cut: a veto */
   SporeForm forms[SPORE_VERDICT_COUNT]; /* by the verdict that they lead to */
 } SporeEvidence;
 
 /* The cheapest form that nobody feels and that saves something worth. */
 SporeVerdict spore_evidence_verdict(const SporeEvidence *evidence);
+/* A noise floor above this tells nothing. */
+#define SPORE_EVIDENCE_TELLING 0.1
 /* Share of a step that a form must save. */
 #define SPORE_EVIDENCE_WORTH 0.02
 /* How far a body that may stand still moves at most, by its length. */

@@ -172,16 +172,12 @@ static void check_tool(SporeCheck *check, SporeObject *tool) {
 
 /* An emitter that is an effect is seen by what it stains. */
 static void check_seeping(SporeCheck *check, SporeObject *emitter) {
-  const SporeObject *fidelity = spore_object_child_of(emitter, "fidelity"),
-                    *fluid = spore_object_reference(emitter, "body");
-  const SporeObject *model = fluid ? spore_body_model_object(fluid) : NULL;
-  if (check_advice(check, emitter) != SPORE_FIDELITY_IS_EFFECT || !model) return;
-  int stain = spore_parameter_find(spore_object_type(model)->table, "stain");
-  gboolean stains = stain >= 0 && spore_object_number(model, "stain") > 0 && spore_object_text(emitter, "source");
-  if (stains) return;
-  spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical, and the fluid an effect if that is enough"),
-                  _("nothing is seen of \"%s\" as an effect: it has no source to stain, or its fluid stains nothing"),
-                  spore_object_name(emitter));
+  const SporeObject *fidelity = spore_object_child_of(emitter, "fidelity");
+  if (check_advice(check, emitter) != SPORE_FIDELITY_IS_EFFECT || spore_fidelity_is_seen(emitter)) return;
+  spore_check_say(
+      check, SPORE_NOTE, fidelity, _("make the mode physical, and the fluid an effect if that is enough"),
+      _("nothing is seen of \"%s\" as an effect: it has no organ as its source, or its fluid stains nothing"),
+      spore_object_name(emitter));
   spore_check_offer_set(check, fidelity, "mode", "physical");
 }
 

@@ -1,6 +1,8 @@
 /* What the scene says of what may be physical or an effect. */
 #include "core/scene/fidelity.h"
 
+#include <string.h>
+
 #include "core/scene/run_hash.h"
 #include "core/scene/schema_fields.h"
 
@@ -34,6 +36,17 @@ GPtrArray *spore_fidelity_holders(SporeDocument *document) {
 
 gboolean spore_fidelity_is_effect(SporeDocument *document, const SporeObject *holder) {
   return spore_fidelity_state(document, spore_object_child_of(holder, "fidelity")) == SPORE_FIDELITY_IS_EFFECT;
+}
+
+gboolean spore_fidelity_is_seen(const SporeObject *holder) {
+  const SporeObjectType *type = spore_object_type(holder);
+  if (!spore_object_type_child(type, "fidelity")) return FALSE;
+  if (strcmp(type->element, "emitter") != 0) return TRUE;
+  const SporeObject *fluid = spore_object_reference(holder, "body"), *source = spore_object_reference(holder, "source");
+  const SporeObject *model = fluid ? spore_body_model_object(fluid) : NULL;
+  int stain = model ? spore_parameter_find(spore_object_type(model)->table, "stain") : -1;
+  return source && (int)spore_object_number(source, "role") != SPORE_ACTIVE && stain >= 0 &&
+         spore_object_number(model, "stain") > 0;
 }
 
 gboolean spore_fidelity_set_mode(SporeDocument *document, SporeObject *holder, const char *mode, GError **error) {

@@ -18,6 +18,8 @@ SporeFidelityState spore_fidelity_state(SporeDocument *document, const SporeObje
 GPtrArray *spore_fidelity_holders(SporeDocument *document);
 /* Whether it is an effect as the scene says. */
 gboolean spore_fidelity_is_effect(SporeDocument *document, const SporeObject *holder);
+/* Whether the element has a form as an effect, and something of that would be seen: an emitter stains its source. */
+gboolean spore_fidelity_is_seen(const SporeObject *holder);
 /* Sets the mode, as commands. */
 gboolean spore_fidelity_set_mode(SporeDocument *document, SporeObject *holder, const char *mode, GError **error);
 /* Gives all that have mode auto the mode that this comes to now, so that it stays when the scene is varied. */

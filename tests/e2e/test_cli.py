@@ -1500,6 +1500,10 @@ def advise_tells_physical_from_effect():
     """advise: steam that only shows is an effect, what hangs on springs is physical, and a light thing becomes one as its mass is swept."""
     steam = {e["id"]: e for e in report("advise", SCENES / "plate7-steam.spore", "--time", "0.6")["elements"]}
     assert unfelt(steam["bodies/steam"]), steam
+    for seconds, felt in ((0.2, False), (2, True)):  # before the clamp closes, and after
+        clamp = {e["id"]: e for e in report("advise", SCENES / "plate8-clamp.spore", "--time", seconds)["elements"]}["tools/clamp"]
+        assert (clamp["influence"] > clamp["noise_floor"]) == felt and (clamp["verdict"] == "physical" or not felt), clamp
+        assert ("with its effect" in clamp["reason"]) == felt, clamp
     verdicts = {}
     for density in (0.001, 1000):
         answer = report("advise", hanging(f"hang{density}", density))

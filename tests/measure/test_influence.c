@@ -86,6 +86,8 @@ static void test_verdict(void) {
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
   evidence.held = NULL, evidence.alone = true;
   g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
+  evidence.alone = false, evidence.chaotic = true;
+  g_assert_cmpint(spore_evidence_verdict(&evidence), ==, SPORE_VERDICT_PHYSICAL);
 }
 
 /* What is within what half a step makes of it is alike; of amounts only whether there are any. */
