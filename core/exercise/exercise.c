@@ -341,9 +341,7 @@ void spore_exercise_restart(SporeExercise *exercise, const SporeWorld *world) {
     *metric =
         (SporeMetricRun){.from = metric->from, .good = metric->good, .pass = metric->pass, .traces = metric->traces};
     if (metric->traces) memset(metric->traces, 0, exercise->instrument_count * sizeof *metric->traces);
-    if (metric->from.kind->needs_fluid)
-      metric->start = spore_world_particle_count(world, metric->from.body) +
-                      spore_world_body_marks(world, metric->from.body).sucked;
+    if (metric->from.kind->needs_fluid) metric->start = spore_particles_out(world, metric->from.body);
   }
   open_steps(exercise);
   remember(exercise, world);

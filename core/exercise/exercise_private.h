@@ -69,6 +69,12 @@ static inline uint64_t spore_exercise_errors(const SporeExercise *exercise) {
   return count;
 }
 
+/* Particles of a fluid that have come out by now, or were there: in the world, sucked away, or seeped as an effect. */
+static inline uint64_t spore_particles_out(const SporeWorld *world, uint32_t body) {
+  SporeBodyMarks marks = spore_world_body_marks(world, body);
+  return spore_world_particle_count(world, body) + marks.sucked + marks.seeped;
+}
+
 /* places.c */
 /* The point of an instrument, m: the tip of its tool, or the origin of the body of what only touches. */
 SporeVec3 spore_instrument_point(const SporeExercise *exercise, const SporeWorld *world, uint32_t instrument);

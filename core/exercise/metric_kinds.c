@@ -289,8 +289,7 @@ static const SporeMetricKind excess_force = {
 static void look_for_blood(Exercise exercise, SporeMetricRun *metric, const SporeWorld *world, double h) {
   (void)exercise, (void)h;
   const SporeModel *model = spore_world_body_model(world, metric->from.body);
-  uint64_t out =
-      spore_world_particle_count(world, metric->from.body) + spore_world_body_marks(world, metric->from.body).sucked;
+  uint64_t out = spore_particles_out(world, metric->from.body);
   double millilitres = model->block_mass[0] / metric->from.fields.density * 1e6;
   metric->sum = millilitres * ((double)out - (double)metric->start);
 }
@@ -303,16 +302,17 @@ static const SporeParameter blood_rows[] = {
     GRADED, SPORE_ROW_BODY(SporeMetricFields, body, body, N_("Fluid that is lost.")),
     SPORE_ROW_REAL(SporeMetricFields, density, "kg/m^3", 1, 1e5, 1060,
                    N_("Density by which the mass of particles becomes a volume; blood has 1060."))};
-static const SporeMetricKind blood_lost = {
-    .element = "blood_lost",
-    .label = N_("Blood lost"),
-    .doc = N_("Volume of the particles that came out since the start, those that were sucked away as well."),
-    .parameters = SPORE_TABLE(blood_rows, SporeMetricFields),
-    .units = {{"ml", 1}, {"l", 1e3}},
-    .needs_body = true,
-    .needs_fluid = true,
-    .look = look_for_blood,
-    .value = sum_of};
+static const SporeMetricKind blood_lost = {.element = "blood_lost",
+                                           .label = N_("Blood lost"),
+                                           .doc =
+                                               N_("Volume of the particles that came out since the start, those that "
+                                                  "were sucked away as well, and what seeped out as an effect."),
+                                           .parameters = SPORE_TABLE(blood_rows, SporeMetricFields),
+                                           .units = {{"ml", 1}, {"l", 1e3}},
+                                           .needs_body = true,
+                                           .needs_fluid = true,
+                                           .look = look_for_blood,
+                                           .value = sum_of};
 
 static void add_strain(Exercise exercise, SporeMetricRun *metric, const SporeWorld *world, double h) {
   (void)exercise;

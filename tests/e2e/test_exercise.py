@@ -342,7 +342,7 @@ def suction_sucks_and_what_a_wound_gives_is_lost():
 @check
 @alike
 def clamps_keep_a_wound_from_bleeding():
-    """A tube that is clamped on both sides and cut between gives no blood; cut too early, with one clamp where it takes two, or where none counts, it bleeds."""
+    """A tube that is clamped on both sides and cut between gives no blood; cut too early, with one clamp where it takes two, or where none counts, it bleeds. Clips that are put on as effects keep it from bleeding, too, and what seeps is blood that is lost."""
     if is_sanitized(SPORE):
         return
     shipped = (SCENES / "exercise-clip-and-cut.spore").read_text()
@@ -353,15 +353,24 @@ def clamps_keep_a_wound_from_bleeding():
         'trigger="wound" CLAMPS/></effects><tools>')
     scene, early = SCENES / "clamped-wound.spore", SCENES / "exercise-clip-and-cut" / "early.track"
 
-    def poured(clamps, *options):
-        scene.write_text(bleeding.replace("CLAMPS", clamps))
-        return json.loads(spore("run", scene, "-n", 2500, "--json", *options).stdout)["fluids"][0]["poured_ml"]
+    lost = lambda done: [metric["value"] for metric in done["exercise"]["metrics"] if metric["name"] == "lost"]
+
+    def poured(clamps, *options, seeps=False, clips=False):
+        text = bleeding.replace("CLAMPS", clamps).replace("</exercise>", '<cut name="never" body="tube" count="1000000"/><blood_lost name="lost" body="blood"/></exercise>')
+        settings = [f"tools/{side}_clamp/fidelity/mode=effect" for side in ("left", "right") if clips] + ["effects/wound/fidelity/mode=effect"] * seeps
+        scene.write_text(text)
+        done = json.loads(spore("run", scene, "-n", 2500, "--json", *options, *(word for one in settings for word in ("--set", one))).stdout)
+        fluid = done["fluids"][0]
+        assert fluid["poured_ml" if seeps else "seeped_ml"] == 0 and (lost(done)[0] > 0) == (fluid["poured_ml"] + fluid["seeped_ml"] > 0), done["fluids"]
+        return fluid["poured_ml"] + fluid["seeped_ml"]
 
     try:
         assert poured('clamps="2"') == 0
         assert poured('clamps="1"', "--input", early) == 0
         assert poured('clamps="2"', "--input", early) > 0
         assert poured('clamp_distance="0"') > 0
+        assert poured('clamps="2"', clips=True) == poured('clamps="2"', clips=True, seeps=True) == 0
+        assert poured('clamps="2"', "--input", early, clips=True, seeps=True) > 0
     finally:
         scene.unlink()
 

@@ -42,7 +42,7 @@ static SporeSeatPoints spheres_of(const SporeWorld *world, const SporeBody *body
 }
 
 /* The frame that the clip goes with, in the state. */
-static SporePose seat_frame(const SporeWorld *world, const SporeClip *clip) {
+static SporePose seat_frame(const SporeWorld *world, const SporeJawClip *clip) {
   assert(clip->set && clip->body < world->body_count);
   const SporeBody *body = &world->bodies[clip->body];
   SporeSeatPoints spheres = spheres_of(world, body);
@@ -52,7 +52,7 @@ static SporePose seat_frame(const SporeWorld *world, const SporeClip *clip) {
 
 /* Sits down on the body of the held sphere that is nearest to the middle of the jaws. */
 static void sit_down(SporeWorld *world, SporeJaws *jaws) {
-  SporeClip *clip = &jaws->clip;
+  SporeJawClip *clip = &jaws->clip;
   SporePose shaft = pose_of(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);
   SporeVec3 middle = spore_pose_apply(shaft, spore_vec3_add_scaled(jaws->hinge, 0.5 * jaws->length, jaws->along));
   double least = INFINITY;
@@ -117,7 +117,7 @@ static void get_up(SporeWorld *world, SporeJaws *jaws) {
 
 /* Opens as far as the jaws were when they touched the tissue; then they hold it as physics does. */
 static void leave(SporeWorld *world, SporeJaws *jaws) {
-  SporeClip *clip = &jaws->clip;
+  SporeJawClip *clip = &jaws->clip;
   if (clip->set && jaws->opening < clip->touched) {
     jaws->opening = fmin(clip->touched, jaws->opening + world->solver.time_step * jaws->fields.speed);
     return;
@@ -129,7 +129,7 @@ static void leave(SporeWorld *world, SporeJaws *jaws) {
 }
 
 static void close_on(SporeWorld *world, SporeJaws *jaws, double wanted) {
-  SporeClip *clip = &jaws->clip;
+  SporeJawClip *clip = &jaws->clip;
   double most = world->solver.time_step * jaws->fields.speed, least = clip->set ? THINNEST * clip->touched : 0;
   if (clip->set && !jaws->latched) get_up(world, jaws);
   if (!clip->set && wanted < jaws->opening && spore_jaws_pinch(world, jaws, false)) {
@@ -150,7 +150,7 @@ void spore_clip_use(SporeWorld *world, SporeJaws *jaws, double wanted) {
 
 void spore_clip_set_effect(SporeWorld *world, SporeTool *tool) {
   SporeJaws *jaws = (SporeJaws *)tool;
-  SporeClip *clip = &jaws->clip;
+  SporeJawClip *clip = &jaws->clip;
   if (!tool->effect) {
     clip->leaving = true;
     return;
@@ -170,7 +170,7 @@ void spore_clip_reset(SporeWorld *world, SporeJaws *jaws) {
 
 bool spore_clip_squeeze(const SporeWorld *world, const SporeTool *tool, SporeSqueeze *squeeze) {
   const SporeJaws *jaws = (const SporeJaws *)tool;
-  const SporeClip *clip = &jaws->clip;
+  const SporeJawClip *clip = &jaws->clip;
   if (!clip->set || !(jaws->length > 0) || !(clip->touched > 0)) return false;
   SporePose shaft = pose_of(world->state.q + world->bodies[tool->bodies[0]].q_offset);
   SporeMat3 axes = spore_mat3_from_columns(jaws->along, jaws->axis, spore_vec3_cross(jaws->along, jaws->axis));

@@ -5,7 +5,7 @@
 #include "core/base/parameter_rows.h"
 #include "core/sim/tool/tool.h"
 
-/* A sphere between jaws, tied to one of them by a spring. */
+/* A sphere between jaws, tied to one of them by a spring; not tied where the tool is an effect. */
 typedef enum SporeHoldState { SPORE_HOLD_FREE, SPORE_HOLD_TIED, SPORE_HOLD_LOST } SporeHoldState;
 typedef struct SporeHold {
   SporeHoldState state;
@@ -19,7 +19,7 @@ typedef struct SporeJaw {
 } SporeJaw;
 
 /* What a clamp knows of itself as an effect; see clip.h. */
-typedef struct SporeClip {
+typedef struct SporeJawClip {
   bool set;        /* it sits on a body and goes along with it */
   bool leaving;    /* it opens, and is physical then */
   bool back;       /* the shaft is on its way back to its device */
@@ -27,7 +27,7 @@ typedef struct SporeClip {
   SporeSeat seat;  /* among the body's spheres */
   SporePose shaft; /* in the frame of the seat */
   double touched;  /* opening at which the jaws touched what is between them, rad */
-} SporeClip;
+} SporeJawClip;
 
 typedef struct SporeJaws {
   SporeTool tool;
@@ -42,7 +42,7 @@ typedef struct SporeJaws {
   double squeeze;              /* torque against closing, N m */
   double held_at;              /* opening at which the jaws began to hold; negative: they hold nothing */
   double stroke;               /* opening at which they began to close, rad */
-  SporeClip clip;              /* of a clamp */
+  SporeJawClip clip;           /* of a clamp */
 } SporeJaws;
 
 /* What is wrong with the jaws' bodies or hinge, or with the hinge alone; translated, or NULL. */
