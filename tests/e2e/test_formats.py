@@ -526,9 +526,10 @@ def mujoco_runs_rigid_bodies(*_):
     """MJCF: Debian's MuJoCo loads every shipped scene; mass, inertia, springs and motion of rigid bodies are those of SPORE"""
     if not PROBE:
         raise Skip("libmujoco-dev was not installed when this was built")
-    scenes = sorted(SCENES.glob("*.spore"))
-    for scene in scenes[::4] if is_sanitized(SPORE) else scenes:
+    for scene in sorted(SCENES.glob("*.spore")):
         report = export(scene.stem, "mjcf", FOLDER / "model.xml")
+        if is_sanitized(SPORE):
+            continue  # what MuJoCo reads of it is seen in the other build
         said = json.loads(run(PROBE, FOLDER / "model.xml", "0.01"))
         lost = [sentence.split(":")[0] for sentence in report["lost"] if "no rigid body" in sentence]
         names = re.findall(r'<body name="(\w+)"', scene.read_text())
