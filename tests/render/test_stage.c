@@ -547,6 +547,49 @@ static void test_tubes_and_spheres_are_stained(void) {
   g_assert_cmpint(pixels_stained(SPORE_SCENES "/exercise-suction.spore", "bowl", TRUE), >, 1000);
 }
 
+/* Pixels that differ between two pictures. */
+static int pixels_apart(const Picture *one, const Picture *other) {
+  int apart = 0;
+  for (int p = 0; p < 160 * 120; p++) {
+    int a[3], b[3];
+    picture_pixel(one, p % 160, p / 160, a);
+    picture_pixel(other, p % 160, p / 160, b);
+    apart += memcmp(a, b, sizeof a) != 0;
+  }
+  return apart;
+}
+
+/* What a clip squeezes is drawn so, of a body that moves and of one that does not; and as it was when the clip is off.
+ */
+static void test_squeezed(void) {
+  static const char *const bodies[] = {"tube", "stand"};
+  for (gsize i = 0; i < G_N_ELEMENTS(bodies); i++) {
+    Setting setting = setting_open(SPORE_SCENES "/exercise-clip-and-cut.spore");
+    setting_run(&setting, 0);
+    SporeSnapshot snapshot = *spore_world_snapshot_acquire(setting.simulation->world);
+    SporeSqueeze squeeze = {.body = spore_world_find_body(setting.simulation->world, bodies[i]),
+                            .frame = spore_pose_identity(),
+                            .length = 0.05,
+                            .width = 0.05,
+                            .height = 0.05,
+                            .ratio = 0.2};
+    SporeCamera camera;
+    Picture pictures[3];
+    g_assert_true(spore_stage_camera(setting.stage, NULL, 4.0 / 3, &camera, NULL));
+    snapshot.squeezes = &squeeze;
+    for (int k = 0; k < 3; k++) {
+      snapshot.squeeze_count = k == 1;
+      spore_stage_update(setting.stage, &snapshot);
+      pictures[k] = draw_picture(setting.bench.renderer, &camera, 160, 120, FALSE, FALSE);
+    }
+    g_test_message("%s: %d pixels change", bodies[i], pixels_apart(&pictures[0], &pictures[1]));
+    g_assert_cmpint(pixels_apart(&pictures[0], &pictures[1]), >, 20);
+    g_assert_cmpint(pixels_apart(&pictures[0], &pictures[2]), ==, 0);
+    for (int k = 0; k < 3; k++) picture_clear(&pictures[k]);
+    setting_close(&setting);
+  }
+}
+
 /* The ball filled with a fluid whose collision unit names no spheres. */
 static void test_own_spheres(void) {
   Setting setting = setting_open(MINIMAL);
@@ -820,6 +863,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/stains-are-seen", test_stains_are_seen);
   g_test_add_func("/render/stage/tubes-and-spheres-are-stained", test_tubes_and_spheres_are_stained);
+  g_test_add_func("/render/stage/squeezed", test_squeezed);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);

@@ -132,6 +132,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   gboolean flowed = FALSE, squeezed = take_squeezes(stage, snapshot);
   for (guint i = 0; i < stage->bodies->len; i++) {
     SporeStageBody *body = body_of_level(stage, i, snapshot);
+    if (!body->moves && squeezed) spore_stage_body_place(stage, body);
     if (!body->moves) continue;
     const double *q = snapshot->q + body->q_offset;
     spore_stage_body_follow_knots(body, stage->simulation, snapshot);
