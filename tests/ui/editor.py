@@ -238,8 +238,13 @@ class Editor:
         self.atspi.Action.do_action(node, 0)
 
     def set_entry(self, node, text):
-        """Types over what the entry holds, and Enter."""
-        self.atspi.EditableText.set_text_contents(node, text)
+        """Types over what the entry holds, and Enter once that stays: the window may be about to show there what was set before."""
+        def stays():
+            if self.text_of(node) == text:
+                return True
+            self.atspi.EditableText.set_text_contents(node, text)
+            return False
+        wait(stays, f"{text} to stand in the entry")
         self.atspi.Action.do_action(node, 0)
 
     def set_number(self, node, value):
