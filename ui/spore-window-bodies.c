@@ -117,6 +117,15 @@ static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer dat
     spore_window_failed(self, error);
 }
 
+/* Locks, and what is hidden, are kept with the scene's file. */
+
+static void keep(SporeWindow *self, const char *mark, GHashTable *marked) {
+  const char *scene = spore_editor_document_get_save_file(self->document);
+  g_autoptr(GError) error = NULL;
+  if (scene && !spore_kept_bodies_write(scene, mark, document_of(self), marked, &error) && error)
+    spore_window_log(self, "%s", error->message);
+}
+
 /* Hiding. */
 
 static void show_hidden(SporeWindow *self) {
@@ -127,7 +136,7 @@ static void show_hidden(SporeWindow *self) {
 
 static void shown_changed(SporeWindow *self) {
   show_hidden(self);
-  spore_window_keep_marks(self);
+  keep(self, SPORE_KEPT_HIDDEN, spore_viewport_get_hidden(SPORE_VIEWPORT(self->viewport)));
 }
 
 /* The selected bodies are hidden, or shown alone. */
@@ -162,15 +171,6 @@ static void show_locks(SporeWindow *self) {
   spore_window_show_hint(self);
 }
 
-/* Locks, and what is hidden, are kept with the scene's file. */
-
-static void keep(SporeWindow *self, const char *mark, GHashTable *marked) {
-  const char *scene = spore_editor_document_get_save_file(self->document);
-  g_autoptr(GError) error = NULL;
-  if (scene && !spore_kept_bodies_write(scene, mark, document_of(self), marked, &error) && error)
-    spore_window_log(self, "%s", error->message);
-}
-
 void spore_window_keep_marks(SporeWindow *self) {
   keep(self, SPORE_KEPT_LOCKED, spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)));
   keep(self, SPORE_KEPT_HIDDEN, spore_viewport_get_hidden(SPORE_VIEWPORT(self->viewport)));
@@ -191,7 +191,7 @@ void spore_window_restore_marks(SporeWindow *self) {
 
 static void locks_changed(SporeWindow *self) {
   show_locks(self);
-  spore_window_keep_marks(self);
+  keep(self, SPORE_KEPT_LOCKED, spore_viewport_get_locked(SPORE_VIEWPORT(self->viewport)));
 }
 
 static void act_lock(GSimpleAction *action, GVariant *parameter, gpointer data) {

@@ -37,10 +37,10 @@ static void report_form(SporeCli *cli, const char *name, const SporeForm *form) 
   spore_cli_close(cli);
 }
 
-static void report_element(SporeCli *cli, const SporeAdviceElement *body, int width) {
-  const SporeEvidence *evidence = &body->evidence;
+static void report_element(SporeCli *cli, const SporeAdviceElement *element, int width) {
+  const SporeEvidence *evidence = &element->evidence;
   const SporeForm *out = &evidence->forms[SPORE_VERDICT_EFFECT];
-  g_autofree char *id = g_strdup_printf("%s/%s", body->section, body->name);
+  g_autofree char *id = g_strdup_printf("%s/%s", element->section, element->name);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "id", id);
   spore_cli_number(cli, "influence", out->tried ? out->influence.rms : NAN);
@@ -49,32 +49,32 @@ static void report_element(SporeCli *cli, const SporeAdviceElement *body, int wi
   spore_cli_number(cli, "force_floor_N", evidence->force_floor);
   spore_cli_number(cli, "cost_us", out->tried ? out->saved_us : NAN);
   spore_cli_number(cli, "own_motion", evidence->own_motion);
-  spore_cli_text(cli, "verdict", spore_verdict_names[body->verdict]);
-  spore_cli_text(cli, "reason", body->reason);
+  spore_cli_text(cli, "verdict", spore_verdict_names[element->verdict]);
+  spore_cli_text(cli, "reason", element->reason);
   spore_cli_open_array(cli, "forms");
   for (int k = 0; k < SPORE_VERDICT_COUNT; k++) report_form(cli, spore_verdict_names[k], &evidence->forms[k]);
   spore_cli_close_array(cli);
   spore_cli_close(cli);
   g_autofree char *influence = out->tried ? g_strdup_printf("%.2g %%", 100 * out->influence.rms) : g_strdup("-");
   g_autofree char *cost = out->tried ? g_strdup_printf("%.2f us", out->saved_us) : g_strdup("-");
-  spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, body->name, spore_verdict_names[body->verdict], influence, cost,
-                body->reason);
+  spore_cli_say(cli, "%-*s %-9s %9s %12s  %s\n", width, element->name, spore_verdict_names[element->verdict], influence,
+                cost, element->reason);
 }
 
 static void report_suggestions(SporeCli *cli, const SporeAdvice *advice) {
   guint count = 0;
   spore_cli_open_array(cli, "suggestion");
   for (gsize k = 0; k < advice->count; k++) {
-    const SporeAdviceElement *body = &advice->elements[k];
+    const SporeAdviceElement *element = &advice->elements[k];
     double saved_us;
-    const char *change = spore_advice_change(body, &saved_us);
+    const char *change = spore_advice_change(element, &saved_us);
     if (!change) continue;
     spore_cli_open(cli, NULL);
-    spore_cli_text(cli, "id", body->name);
+    spore_cli_text(cli, "id", element->name);
     spore_cli_text(cli, "change", change);
     spore_cli_number(cli, "saves_us", saved_us);
     spore_cli_close(cli);
-    spore_cli_say(cli, _("%s: %s; saves %.1f us of %.1f us a step\n"), body->name, change, saved_us,
+    spore_cli_say(cli, _("%s: %s; saves %.1f us of %.1f us a step\n"), element->name, change, saved_us,
                   advice->floor.step_us);
     count++;
   }

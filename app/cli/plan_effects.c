@@ -1,5 +1,6 @@
 /* What spore plan says of effects. */
 #include <glib/gi18n.h>
+#include <math.h>
 
 #include "app/cli/plan_tables.h"
 #include "core/scene/fidelity.h"
@@ -7,13 +8,11 @@
 #define LEAST_STEPS 200
 #define LONGEST_S 10.
 
-/* The end of the recorded input, or as long as is measured. */
+/* How long is measured: to the end of the recorded input, up to a limit. */
 static double measured_s(const SporeRun *run) {
+  double least_s = LEAST_STEPS * spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   const SporeTrack *track = run->input.channel_count ? &run->input : run->simulation->track;
-  double end_s = LEAST_STEPS * spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  for (gsize i = 0; track && i < track->channel_count; i++)
-    if (track->channels[i].count) end_s = MAX(end_s, track->channels[i].time_s[track->channels[i].count - 1]);
-  return MIN(end_s, LONGEST_S);
+  return fmin(fmax(least_s, spore_track_end_s(track)), LONGEST_S);
 }
 
 /* Mean time of a step of a copy of the scene, us. path: of what is physical in it; NULL: it is as the scene says. */
@@ -43,28 +42,31 @@ static void report_body(SporeCli *cli, const SporeWorld *world, const char *name
                 effect_us, physics_us);
 }
 
-/* Nothing is counted for tools and emitters: what they save is in the contacts and particles that are not there. */
-static gboolean report_other(SporeCli *cli, SporeRun *run, const SporeObject *holder, gboolean measured,
+/* Nothing is counted for tools and emitters: what they save is in the contacts and particles that are not there.
+ * *is_us: of the scene as it is, measured where it is wanted first; NAN until then. */
+static gboolean report_other(SporeCli *cli, SporeRun *run, const SporeObject *holder, gboolean measured, double *is_us,
                              GError **error) {
   const char *name = spore_object_name(holder);
   g_autofree char *path = spore_object_path(holder);
-  double time_s = measured_s(run), is_us, physical_us;
+  double time_s = measured_s(run), physical_us;
   if (!measured) {
     spore_cli_say(cli, _("%s: an effect; --measure says what that saves\n"), name);
     return TRUE;
   }
-  if (!measure(run, NULL, time_s, &is_us, error) || !measure(run, path, time_s, &physical_us, error)) return FALSE;
+  if (isnan(*is_us) && !measure(run, NULL, time_s, is_us, error)) return FALSE;
+  if (!measure(run, path, time_s, &physical_us, error)) return FALSE;
   spore_cli_number(cli, "seconds", time_s);
-  spore_cli_number(cli, "step_us", is_us);
+  spore_cli_number(cli, "step_us", *is_us);
   spore_cli_number(cli, "step_us_physical", physical_us);
   spore_cli_say(cli, _("%s: an effect; over %.3g s a step takes %.3g us, with its physics %.3g us\n"), name, time_s,
-                is_us, physical_us);
+                *is_us, physical_us);
   return TRUE;
 }
 
 gboolean spore_plan_report_effects(SporeCli *cli, SporeRun *run, gboolean measured, GError **error) {
   g_autoptr(GPtrArray) holders = spore_fidelity_holders(run->document);
   gboolean done = TRUE;
+  double is_us = NAN;
   spore_cli_open_array(cli, "effects");
   for (guint i = 0; done && i < holders->len && !spore_cli_interrupted(); i++) {
     const SporeObject *holder = holders->pdata[i];
@@ -74,7 +76,7 @@ gboolean spore_plan_report_effects(SporeCli *cli, SporeRun *run, gboolean measur
     spore_cli_text(cli, "name", spore_object_name(holder));
     spore_cli_text(cli, "kind", element);
     if (g_str_equal(element, "body")) report_body(cli, run->simulation->world, spore_object_name(holder));
-    else done = report_other(cli, run, holder, measured, error);
+    else done = report_other(cli, run, holder, measured, &is_us, error);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

@@ -174,7 +174,7 @@ static gboolean find_end(const RenderOptions *options, const Runs *runs, SporeFi
   SporeReelKind kind;
   if (!spore_reel_kind(options->output, &kind, error) || kind == SPORE_REEL_PICTURE) return kind == SPORE_REEL_PICTURE;
   for (guint i = 0; !options->time && i < runs->count; i++)
-    filming->to_s = fmax(filming->to_s, spore_filming_end_of_input(runs->runs[i]->simulation));
+    filming->to_s = fmax(filming->to_s, spore_track_end_s(runs->runs[i]->simulation->track));
   if (filming->to_s > filming->from_s) return TRUE;
   if (!options->time && filming->to_s <= 0)
     return spore_error_raise(error, SPORE_ERROR_INPUT, options->output, "%s",

@@ -264,9 +264,7 @@ static gboolean find(Search *search, GError **error) {
 
 /* The whole of the recorded input, up to a limit. */
 static double usual_time(const SporeTrack *track, gboolean exercise) {
-  double end_s = 0;
-  for (gsize i = 0; track && i < track->channel_count; i++)
-    if (track->channels[i].count) end_s = fmax(end_s, track->channels[i].time_s[track->channels[i].count - 1]);
+  double end_s = spore_track_end_s(track);
   return end_s > 0 ? fmin(end_s, exercise ? LONGEST_EXERCISE_S : LONGEST_TIME_S) : USUAL_TIME_S;
 }
 

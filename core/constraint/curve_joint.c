@@ -21,7 +21,7 @@ double spore_curve_joint_overshoot(const SporeCurveJoint *joint, const SporePath
 SporePathPlace spore_curve_joint_place(const SporeCurveJoint *joint, const double *local, SporeVec3 p) {
   assert(local);
   if (!joint->points) return spore_path_follow(joint->knots, local, joint->start, p);
-  SporePose frame = {spore_vec3_load(local), spore_quat_load(local + 3)};
+  SporePose frame = spore_pose_load(local);
   SporeVec3 in_frame = spore_quat_rotate(spore_quat_conjugate(frame.orientation), spore_vec3_sub(p, frame.position));
   SporePathPlace place = spore_path_follow(joint->knots, joint->points, joint->start, in_frame);
   place.position = spore_pose_apply(frame, place.position);

@@ -82,7 +82,7 @@ bool spore_view_sees(const SporeView *view, const SporeWorld *world, SporeVec3 p
   SporePose frame = spore_pose_identity();
   if (view->body != SPORE_NO_BODY) {
     const double *q = spore_world_q(world, view->body);
-    frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+    frame = spore_pose_load(q);
   }
   SporeVec3 eye = spore_pose_apply(frame, view->position);
   SporeVec3 line = spore_vec3_sub(spore_pose_apply(frame, view->target), eye), to = spore_vec3_sub(point, eye);

@@ -78,6 +78,15 @@ bool spore_track_append(SporeTrackChannel *channel, double time_s, const SporeDe
   return true;
 }
 
+double spore_track_end_s(const SporeTrack *track) {
+  double end_s = 0;
+  for (size_t i = 0; track && i < track->channel_count; i++) {
+    const SporeTrackChannel *channel = &track->channels[i];
+    if (channel->count > 0) end_s = fmax(end_s, channel->time_s[channel->count - 1]);
+  }
+  return end_s;
+}
+
 /* Reading. */
 
 typedef struct Reader {

@@ -30,6 +30,8 @@ bool spore_track_parse(SporeTrack *track, const char *place, const char *text, s
 void spore_track_clear(SporeTrack *track);
 /* The channel of that name; NULL: there is none. Owned by the track. */
 SporeTrackChannel *spore_track_channel(const SporeTrack *track, const char *name);
+/* When its last row is, s; 0: there is none, or no track (NULL). */
+double spore_track_end_s(const SporeTrack *track);
 /* For recording: adds a channel, owned by the track. Pointers to channels hold only until the next one is added. NULL:
  * no memory, not a name, or there already. Allocates: never inside a step. */
 SporeTrackChannel *spore_track_add_channel(SporeTrack *track, const char *name);

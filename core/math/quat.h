@@ -49,6 +49,10 @@ typedef struct SporePose {
 
 /* The frame of the world. */
 static inline SporePose spore_pose_identity(void) { return (SporePose){{0, 0, 0}, {1, 0, 0, 0}}; }
+/* From its 7 numbers: position, then orientation (w x y z). */
+static inline SporePose spore_pose_load(const double *q) {
+  return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+}
 /* A point of the frame, as a point of the world. */
 static inline SporeVec3 spore_pose_apply(SporePose p, SporeVec3 v) {
   return spore_vec3_add(p.position, spore_quat_rotate(p.orientation, v));

@@ -161,8 +161,7 @@ static gboolean is_smoke(const SporeObject *body) {
 
 /* Whether an effect moves the body that does not fall; drops do. */
 static gboolean is_effect(const Start *start, const SporeObject *body) {
-  const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
-  return !particles_of(body) && spore_fidelity_state(start->check->document, fidelity) == SPORE_FIDELITY_IS_EFFECT;
+  return !particles_of(body) && spore_fidelity_is_effect(start->check->document, body);
 }
 
 /* Whether the body falls: physics moves it, and no link holds it. */

@@ -173,7 +173,7 @@ static void place_frame(SporeDrawnPart *part, SporePose start, const double *q) 
   part->frame = start;
   if (!part->framed || kind == SPORE_MAPPING_FIXED) return;
   SporeVec3 offset = spore_vec3_sub(spore_vec3_load(source->mapping.points), spore_vec3_load(source->points));
-  part->frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  part->frame = spore_pose_load(q);
   part->frame.position = spore_pose_apply(part->frame, offset);
 }
 

@@ -147,7 +147,7 @@ static gboolean read_file(SporeDocument *document, const char *file, Kept *kept,
 /* Moves nodes and frame as the scene has moved the body's frame since. Nothing changes, to the bit, where it stands as
  * it did. */
 static void follow_frame(const SporeModel *model, SporePose frame, Kept *kept) {
-  const SporePose old = {spore_vec3_load(kept->at), spore_quat_load(kept->at + 3)};
+  const SporePose old = spore_pose_load(kept->at);
   if (memcmp(&old, &frame, sizeof old) == 0) return;
   gsize nodes = model ? model->node_count - model->spare_count : 1;
   gsize turn = !model ? 3 : model->type->inertia ? 3 * model->node_count : SIZE_MAX;
@@ -185,7 +185,7 @@ gsize spore_kept_pose_inverted(SporeDocument *document, const SporeObject *body,
 
 /* Particles that are out of the world stay there: their poses do not go with the frame. */
 static gboolean is_of(const Kept *kept, const SporeModel *model, SporePose frame) {
-  const SporePose old = {spore_vec3_load(kept->at), spore_quat_load(kept->at + 3)};
+  const SporePose old = spore_pose_load(kept->at);
   gboolean moved = memcmp(&old, &frame, sizeof old) != 0;
   return kept->count == numbers_of(model) && kept->hash == hash_of(model) &&
          !(moved && model && model->type->particles);

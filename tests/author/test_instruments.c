@@ -201,7 +201,7 @@ static SporePose led_aside(const FixtureScene *scene, SporeObject *body) {
   g_assert_no_error(error);
   while (spore_world_time_s(simulation->world) < 0.1) spore_world_step(simulation->world);
   const double *q = spore_world_q(simulation->world, spore_simulation_body_of(simulation, body));
-  pose = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  pose = spore_pose_load(q);
   spore_simulation_free(simulation);
   spore_track_clear(&track);
   return pose;

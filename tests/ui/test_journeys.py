@@ -2199,21 +2199,28 @@ def order_of(text, group="bodies"):
 
 def drag_row(editor, name, onto, done):
     """Drags a row to the upper rim of another one, a little with each question, until that is done: when the program takes up a drag,
-    and when it has seen the last way of the mouse, is its own affair."""
+    and when it has seen the last way of the mouse, is its own affair. Escape ends what a drag that came to nothing left behind."""
     place = lambda row: editor.place(ui.wait(lambda: editor.row(row), row))
+    tried = []
 
     def tries():
         for begin in itertools.cycle((8, 20, 32)):
             x, y, width, height = place(name)
             to_x, to_y, _, _ = place(onto)
+            tried.append((x, y, to_x, to_y))
             for step in (("mousemove", x + begin, y + height // 2, "mousedown", 1), ("mousemove", x + begin + 10, y + height // 2 + 8),
-                         ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3), ("mouseup", 1)):
+                         ("mousemove", to_x + 30, to_y + 5), ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3),
+                         ("mouseup", 1)):
                 editor.mouse(*step)
                 yield False
             for _ in range(6):
                 yield done()
+            editor.keys("Escape")
     answers = tries()
-    ui.wait(lambda: next(answers), f"{name} to be dragged")
+    try:
+        ui.wait(lambda: next(answers), f"{name} to be dragged")
+    except AssertionError as error:
+        raise AssertionError(f"{error}, from and to {tried}; the scene has {order_of(saved(editor, 'not-dragged'))}") from None
 
 
 def locked_bodies_are_looked_through(editor):

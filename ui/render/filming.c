@@ -20,15 +20,6 @@ static double moment_s(const SporeFilming *filming, guint64 picture) {
   return is_picture(filming) ? filming->to_s : filming->from_s + (double)picture / filming->fps * filming->speed;
 }
 
-double spore_filming_end_of_input(const SporeSimulation *simulation) {
-  double end_s = 0;
-  for (gsize i = 0; simulation->track && i < simulation->track->channel_count; i++) {
-    const SporeTrackChannel *channel = &simulation->track->channels[i];
-    if (channel->count > 0) end_s = fmax(end_s, channel->time_s[channel->count - 1]);
-  }
-  return end_s;
-}
-
 static gboolean cancelled(const SporeFilming *filming, GError **error) {
   return spore_error_raise(error, SPORE_ERROR_CANCELLED, filming->file,
                            _("interrupted; it was not written, and what was there stays"));

@@ -37,8 +37,6 @@ typedef struct SporeFilmed {
   double field_end;
 } SporeFilmed;
 
-/* The time of the last input that moves the simulation, s; 0: nothing does. */
-double spore_filming_end_of_input(const SporeSimulation *simulation);
 /* Writes the file, whole or not at all. FALSE with a GError; SPORE_ERROR_CANCELLED where cancel or progress asked. */
 gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *progress, SporeFilmed *filmed,
                            GError **error);

@@ -48,7 +48,7 @@ static SporeVec3 moved_with(const SporeStage *stage, const SporeObject *body, Sp
     spore_object_fields(body, &fields);
     SporeQuat start = spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation));
     SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(fields.position));
-    SporePose now = {spore_vec3_load(shown->q), spore_quat_load(shown->q + 3)};
+    SporePose now = spore_pose_load(shown->q);
     return spore_pose_apply(now, spore_quat_rotate(spore_quat_conjugate(start), arm));
   }
   return point;

@@ -28,7 +28,7 @@
 static SporePose frame_of(const SporeWorld *world, uint32_t index) {
   if (index == SPORE_NO_BODY) return spore_pose_identity();
   const double *q = world->state.q + world->bodies[index].q_offset;
-  return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  return spore_pose_load(q);
 }
 
 static bool has_frame(const SporeWorld *world, uint32_t body) {

@@ -79,7 +79,7 @@ static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTer
   SporePose frame = spore_pose_identity();
   if (term->b.mapping->kind == SPORE_MAPPING_RIGID) {
     const double *q = world->state.q + world->bodies[term->b.body].q_offset;
-    frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+    frame = spore_pose_load(q);
   }
   term->law.free = spore_quat_rotate(frame.orientation, link->along);
   SporeVec3 from_base = spore_vec3_sub(end_position(world, &term->a), spore_pose_apply(frame, link->base));

@@ -154,7 +154,7 @@ static SporeVec3 eye_point(const SporeWorld *world, const SporeEyeDescription *e
   const SporeBody *body = &world->bodies[eye->body];
   if (body->model && !spore_model_is_rigid(body->model)) return eye->point;
   const double *q = world->state.q + body->q_offset;
-  SporePose now = {spore_vec3_load(q), spore_quat_load(q + 3)};
+  SporePose now = spore_pose_load(q);
   return spore_pose_apply(now, spore_pose_apply_inverse(body->rest_pose, eye->point));
 }
 

@@ -29,7 +29,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
   bipolar->coagulated = 0;
   if (!spore_tool_button(world, tool->bodies[0], SPORE_FIRST_BUTTON)) return;
   const double *q = world->state.q + holder->q_offset;
-  SporeVec3 point = spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->tip);
+  SporeVec3 point = spore_pose_apply(spore_pose_load(q), tool->tip);
   const SporeBipolarFields *fields = &bipolar->fields;
   const SporeHeat heat = {point, fields->radius, fields->rate * world->solver.time_step, 1 - fields->least,
                           fields->stiffening};

@@ -13,8 +13,6 @@
 #define BACK_M_S 0.1 /* how fast the shaft comes back to its device */
 #define BACK_RAD_S 2.
 
-static SporePose pose_of(const double *q) { return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}; }
-
 static SporePose relative(SporePose frame, SporePose pose) {
   return (SporePose){
       spore_pose_apply_inverse(frame, pose.position),
@@ -47,13 +45,13 @@ static SporePose seat_frame(const SporeWorld *world, const SporeJawClip *clip) {
   const SporeBody *body = &world->bodies[clip->body];
   SporeSeatPoints spheres = spheres_of(world, body);
   if (body->role == SPORE_UNMOVABLE) return body->rest_pose;
-  return spore_model_is_rigid(body->model) ? pose_of(spheres.q) : spore_seat_frame(&clip->seat, &spheres);
+  return spore_model_is_rigid(body->model) ? spore_pose_load(spheres.q) : spore_seat_frame(&clip->seat, &spheres);
 }
 
 /* Sits down on the body of the held sphere that is nearest to the middle of the jaws. */
 static void sit_down(SporeWorld *world, SporeJaws *jaws) {
   SporeJawClip *clip = &jaws->clip;
-  SporePose shaft = pose_of(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);
+  SporePose shaft = spore_pose_load(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);
   SporeVec3 middle = spore_pose_apply(shaft, spore_vec3_add_scaled(jaws->hinge, 0.5 * jaws->length, jaws->along));
   double least = INFINITY;
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
@@ -91,9 +89,10 @@ static void aim(SporeWorld *world, const SporeJaws *jaws, SporePose pose) {
 }
 
 void spore_clip_come_back(SporeWorld *world, SporeJaws *jaws) {
-  const SporeBody *body = &world->bodies[jaws->tool.bodies[0]];
-  SporePose is = pose_of(world->state.q + body->q_offset), to = pose_of(world->state.target_q + body->q_offset);
   if (!jaws->clip.back) return;
+  const SporeBody *body = &world->bodies[jaws->tool.bodies[0]];
+  SporePose is = spore_pose_load(world->state.q + body->q_offset),
+            to = spore_pose_load(world->state.target_q + body->q_offset);
   SporeVec3 way = spore_vec3_sub(to.position, is.position);
   SporeVec3 turn =
       spore_quat_to_rotation_vector(spore_quat_multiply(to.orientation, spore_quat_conjugate(is.orientation)));
@@ -172,10 +171,8 @@ bool spore_clip_squeeze(const SporeWorld *world, const SporeTool *tool, SporeSqu
   const SporeJaws *jaws = (const SporeJaws *)tool;
   const SporeJawClip *clip = &jaws->clip;
   if (!clip->set || !(jaws->length > 0) || !(clip->touched > 0)) return false;
-  SporePose shaft = pose_of(world->state.q + world->bodies[tool->bodies[0]].q_offset);
-  SporeMat3 axes = spore_mat3_from_columns(jaws->along, jaws->axis, spore_vec3_cross(jaws->along, jaws->axis));
   *squeeze = (SporeSqueeze){.body = clip->body,
-                            .frame = placed(shaft, (SporePose){jaws->hinge, spore_quat_from_mat3(axes)}),
+                            .frame = spore_jaws_frame(world, jaws),
                             .length = jaws->length,
                             .width = jaws->width,
                             .height = jaws->length * tan(0.5 * fmin(clip->touched, 3.)),

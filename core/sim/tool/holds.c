@@ -41,7 +41,7 @@ static void tie(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, const SporeHol
   term->a = (SporeEnd){.mapping = &body->collision.spheres, .body = held, .point = point};
   term->b = (SporeEnd){.mapping = &world->links.mappings[2 * index + 1], .body = jaw};
   const double *frame = world->state.q + world->bodies[jaw].q_offset;
-  const SporePose pose = {spore_vec3_load(frame), spore_quat_load(frame + 3)};
+  const SporePose pose = spore_pose_load(frame);
   SporeVec3 at = spore_mapping_position(&body->collision.spheres, point, world->state.q + body->q_offset);
   spore_vec3_store(term->b.mapping->points, spore_pose_apply_inverse(pose, at));
   double mass = body->total_mass / (double)body->collision.spheres.point_count;
@@ -98,19 +98,22 @@ static bool may_pinch(const SporeWorld *world, const SporeJaws *jaws, const Spor
 typedef struct Jaws {
   SporeWorld *world;
   SporeJaws *jaws;
-  SporePose frame; /* of the hinge: along the jaws is x, z is from one to the other */
+  SporePose frame; /* spore_jaws_frame */
   double half_gap; /* between them, for a length of 1 */
   double depth[2]; /* how deep each is in what of a body lies between them, in radii of its spheres */
 } Jaws;
 
-static Jaws look_at(SporeWorld *world, SporeJaws *jaws) {
-  const double *q = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
-  const SporePose shaft = {spore_vec3_load(q), spore_quat_load(q + 3)};
+SporePose spore_jaws_frame(const SporeWorld *world, const SporeJaws *jaws) {
+  const SporePose shaft = spore_pose_load(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);
   SporeMat3 axes = spore_mat3_from_columns(jaws->along, jaws->axis, spore_vec3_cross(jaws->along, jaws->axis));
+  return (SporePose){spore_pose_apply(shaft, jaws->hinge),
+                     spore_quat_multiply(shaft.orientation, spore_quat_from_mat3(axes))};
+}
+
+static Jaws look_at(SporeWorld *world, SporeJaws *jaws) {
   return (Jaws){.world = world,
                 .jaws = jaws,
-                .frame = {spore_pose_apply(shaft, jaws->hinge),
-                          spore_quat_multiply(shaft.orientation, spore_quat_from_mat3(axes))},
+                .frame = spore_jaws_frame(world, jaws),
                 .half_gap = tan(0.5 * fmin(jaws->opening, 3.)),
                 .depth = {-HUGE_VAL, -HUGE_VAL}};
 }

@@ -153,7 +153,7 @@ static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, con
   assert(jaw->body == SPORE_NO_BODY || jaw->body < world->body_count);
   if (jaw->body == SPORE_NO_BODY) return 0;
   const double *shaft = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
-  const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
+  const SporePose frame = spore_pose_load(shaft);
   const double *reaction = world->state.reaction + 6 * (size_t)jaw->body;
   SporeVec3 origin = spore_vec3_load(world->state.q + world->bodies[jaw->body].q_offset);
   SporeVec3 arm = spore_vec3_sub(origin, spore_pose_apply(frame, jaws->hinge));
@@ -197,7 +197,7 @@ static bool hold_effect(const SporeWorld *world, const SporeJaws *jaws) {
 static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
   assert(jaw->body < world->body_count);
   const double *shaft = world->state.target_q + world->bodies[jaws->tool.bodies[0]].q_offset;
-  const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
+  const SporePose frame = spore_pose_load(shaft);
   double *target = world->state.target_q + world->bodies[jaw->body].q_offset;
   SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(0.5 * jaw->side * jaws->opening, jaws->axis));
   SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(jaw->closed.position, jaws->hinge));

@@ -58,6 +58,8 @@ void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
 void spore_jaws_state(const SporeTool *tool, SporeToolState *state);
 
 /* holds.c */
+/* The frame of the hinge in the state, world: the jaws lie along x, and z is from one to the other. */
+SporePose spore_jaws_frame(const SporeWorld *world, const SporeJaws *jaws);
 /* Lets go of all that is held. */
 void spore_jaws_let_go(SporeWorld *world, SporeJaws *jaws);
 /* Holds the sphere, tied to that jaw, where it is not held yet and there is a hold for it. */

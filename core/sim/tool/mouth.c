@@ -9,7 +9,7 @@ SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body) {
   if (body == SPORE_NO_BODY) return spore_pose_identity();
   if (world->bodies[body].role == SPORE_UNMOVABLE) return world->bodies[body].rest_pose;
   const double *q = world->state.next_q + world->bodies[body].q_offset;
-  return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  return spore_pose_load(q);
 }
 
 static bool deforms(const SporeBody *body) { return body->model && !spore_model_is_rigid(body->model); }

@@ -236,10 +236,9 @@ static void reset(SporeWorld *world, SporeTool *tool) {
   needle->pierced = 0;
 }
 
-static SporePose pose_at(const double *q) { return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}; }
-
 static SporeVec3 path_at(const SporeNeedle *needle, const double *q, double parameter) {
-  return spore_pose_apply(pose_at(q), spore_path_at(spore_spline_uniform(SPANS), needle->path, parameter).position);
+  return spore_pose_apply(spore_pose_load(q),
+                          spore_path_at(spore_spline_uniform(SPANS), needle->path, parameter).position);
 }
 
 /* Unit, ahead of the tip. */

@@ -13,14 +13,14 @@ typedef struct SporeScissors {
 
 /* The end of a blade, in the world, m. */
 static SporeVec3 blade_tip(const SporeScissors *scissors, const double *shaft, double half) {
-  const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
+  const SporePose frame = spore_pose_load(shaft);
   SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(half, scissors->jaws.axis));
   SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(scissors->jaws.tool.tip, scissors->jaws.hinge));
   return spore_pose_apply(frame, spore_vec3_add(scissors->jaws.hinge, arm));
 }
 
 static SporeVec3 blade_root(const SporeScissors *scissors, const double *shaft) {
-  return spore_pose_apply((SporePose){spore_vec3_load(shaft), spore_quat_load(shaft + 3)}, scissors->jaws.hinge);
+  return spore_pose_apply(spore_pose_load(shaft), scissors->jaws.hinge);
 }
 
 static void store_triangle(double *triangle, SporeVec3 a, SporeVec3 b, SporeVec3 c) {

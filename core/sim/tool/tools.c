@@ -126,7 +126,7 @@ void spore_world_follow_tools(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   const double *q = world->state.q + body->q_offset;
   double time_s = (double)world->state.step * world->solver.time_step;
-  spore_guard_start(&body->device.guard, time_s, (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)});
+  spore_guard_start(&body->device.guard, time_s, spore_pose_load(q));
   for (size_t i = 0; i < world->tools.count; i++) {
     SporeTool *tool = world->tools.all[i];
     bool has = false;
@@ -204,7 +204,7 @@ SporeVec3 spore_world_tool_tip(const SporeWorld *world, size_t index) {
   assert(index < world->tools.count);
   const SporeTool *tool = world->tools.all[index];
   const double *q = world->state.q + world->bodies[tool->bodies[0]].q_offset;
-  return spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->tip);
+  return spore_pose_apply(spore_pose_load(q), tool->tip);
 }
 
 const SporeToolType *spore_world_tool_type(const SporeWorld *world, size_t index) {
