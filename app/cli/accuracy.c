@@ -5,12 +5,12 @@
 
 #include "app/cli/accuracy_report.h"
 #include "app/cli/scene.h"
-#include "app/cli/svg_picture.h"
 #include "core/author/accuracy_methods.h"
 #include "core/author/accuracy_page.h"
 #include "core/author/accuracy_study.h"
 #include "core/author/sphere_sets.h"
 #include "core/base/number.h"
+#include "ui/render/svg.h"
 #include "core/io/scene_xml.h"
 
 #define STEPS_MOST 20
@@ -171,7 +171,7 @@ static gboolean make_outputs(const char *scene, const Request *request, const Sp
   for (int i = 0; i < 3; i++)
     if (outputs[i].text) outputs[i].size = strlen(outputs[i].text);
   outputs[3].file = request->png;
-  if (request->png) outputs[3].text = spore_cli_png_of_svg(svg, &outputs[3].size, error);
+  if (request->png) outputs[3].text = spore_svg_to_png(svg, &outputs[3].size, error);
   return (!request->html || outputs[2].text) && (!request->png || outputs[3].text);
 }
 
@@ -195,8 +195,8 @@ static gboolean may_write(const char *scene, const Request *request, GError **er
     if (files[i] && !spore_cli_has_room(files[i], scene, error)) return FALSE;
   if (!request->png) return TRUE;
   g_autofree char *picture =
-      spore_cli_png_of_svg("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\"/>", &size, error);
-  if (!picture) g_prefix_error(error, "--png: ");
+      spore_svg_to_png("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\"/>", &size, error);
+  if (!picture) g_prefix_error(error, "%s", _("--png (--svg needs nothing else): "));
   return picture != NULL;
 }
 

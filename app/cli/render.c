@@ -18,7 +18,7 @@ typedef struct RenderOptions {
   char *size, *output, *camera, *time, *beside, *clip, *reach, *field, *field_end;
   char *from, *fps, *speed; /* of a film or a row of pictures */
   char **level;
-  gboolean spheres, tetrahedra, contacts, links, light;
+  gboolean spheres, tetrahedra, contacts, links, light, no_legends;
   SporeSceneOptions scene;
 } RenderOptions;
 
@@ -125,6 +125,7 @@ static gboolean parse_filming(const RenderOptions *options, SporeFilming *filmin
                                       .contacts = options->contacts,
                                       .links = options->links},
                             .light = options->light,
+                            .legends = !options->no_legends,
                             .cancel = spore_cli_cancel()};
   if (!spore_reel_kind(options->output, &kind, error)) return FALSE;
   for (gsize i = 0; kind == SPORE_REEL_PICTURE && i < G_N_ELEMENTS(of_films); i++)
@@ -202,7 +203,7 @@ static void say_reach(SporeCli *cli, SporeDocument *document, const GArray *port
   spore_cli_say(cli, _("  reached of \"%s\": %s\n"), spore_object_name(body), part);
 }
 
-/* The legend of the tint, which a picture has no room for. */
+/* The legend of the tint. */
 static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *name, GError **error) {
   g_autoptr(GArray) ports = spore_stage_find_ports(document, name, error);
   const SporeObject *bodies = spore_document_section(document, "bodies");
@@ -219,11 +220,17 @@ static gboolean tell_reach(SporeCli *cli, SporeDocument *document, const char *n
   return TRUE;
 }
 
-/* The legends, which a picture has no room for. */
 static void tell_legends(SporeCli *cli, const char *field, const SporeFilmed *filmed) {
   if (field) spore_cli_text(cli, "field", field);
   if (filmed->field_end > 0) spore_cli_number(cli, "field_end", filmed->field_end);
   spore_cli_say(cli, "%s", filmed->legends);
+  if (filmed->no_legends) spore_cli_say(cli, _("The picture has no legend: %s\n"), filmed->no_legends->message);
+  else if (filmed->legends_left_out > 0)
+    spore_cli_say(cli,
+                  ngettext("The picture is too small for %u legend; a larger --size has room\n",
+                           "The picture is too small for %u legends; a larger --size has room\n",
+                           filmed->legends_left_out),
+                  filmed->legends_left_out);
 }
 
 static void tell(SporeCli *cli, const char *output, const SporeFilmed *filmed) {
@@ -256,6 +263,7 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   tell(cli, options->output, &filmed);
   tell_legends(cli, options->field, &filmed);
   g_free(filmed.legends);
+  g_clear_error(&filmed.no_legends);
   g_free(filmed.gl_renderer);
   return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }
@@ -325,6 +333,8 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
       {"links", 0, 0, G_OPTION_ARG_NONE, &options.links,
        N_("Show links, a colour for each kind; what bears most is named"), NULL},
       {"tetrahedra", 0, 0, G_OPTION_ARG_NONE, &options.tetrahedra, N_("Show tetrahedra"), NULL},
+      {"no-legends", 0, 0, G_OPTION_ARG_NONE, &options.no_legends,
+       N_("Leave the legends of colours and lines out of the picture"), NULL},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);

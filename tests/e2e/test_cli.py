@@ -1356,6 +1356,21 @@ def render_shows_what_is_reached():
     refuses("render", minimal, "-o", picture, "--reach", "all", says=["all: no instrument passes through a port here"])
 
 
+def legends_are_drawn(net, picture):
+    """In pictures that have room, unless they are left out; without what draws text, the reason is told."""
+    def drawn(*more):
+        said = spore("render", net, "-o", picture, "--field", "strain", "--field-end", "0.25", *more).stdout
+        return said, picture.read_bytes()
+
+    (said, with_legend), (plain, without) = drawn("--size", "320x240"), drawn("--size", "320x240", "--no-legends")
+    assert "The picture" not in plain and "Largest strain" in plain, plain
+    if "svg" not in FEATURES:
+        assert "The picture has no legend: this build draws no SVG" in said and with_legend == without, said
+        return
+    assert "The picture" not in said and with_legend != without, said
+    assert "The picture is too small for 1 legend; a larger --size has room\n" in drawn("--size", "64x64")[0]
+
+
 @check
 def render_colours_what_is_strained():
     """render --field colours soft bodies, says what the colours mean, and which bodies have no stress."""
@@ -1384,6 +1399,8 @@ def render_colours_what_is_strained():
     assert "Level of detail: coarse to fine\n" in said and re.search(r"Depth error: 0 to \S+ ", said), said
     said = spore("render", SCENES / "cut-ovary.spore", "-o", picture, "--size", "64x64", "--field", "cells").stdout
     assert "Least angle of the worst cell: 0 to 60° (fixed scale)" in said, said
+    assert "The picture" not in own[0], own[0]
+    legends_are_drawn(net, WORK / "legend.png")
     refuses("render", net, "-o", WORK / "field.webm", "-t", "1", "--field", "strain", says=["one scale", "--field-end"])
     refuses("render", net, "-o", picture, "--field-end", "1", says=["--field as well"])
 

@@ -15,7 +15,7 @@
 #include "core/author/edits.h"
 #include "core/author/instrument_edits.h"
 #include "core/author/generated_edits.h"
-#include "ui/document/free-place.h"
+#include "ui/render/free_place.h"
 #include "ui/document/hand-edit.h"
 #include "ui/document/hands.h"
 #include "ui/document/number-text.h"

@@ -59,6 +59,7 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
   SporePanes *panes = spore_panes_new(filming->width, filming->height, error);
   gboolean done = panes != NULL;
   if (done) spore_panes_set_clip(panes, &filming->clip), spore_panes_set_light(panes, filming->light);
+  if (done) spore_panes_set_legends(panes, filming->legends);
   for (guint i = 0; done && i < filming->count; i++)
     done =
         spore_panes_add(panes, filming->documents[i], filming->simulations[i], filming->camera, &filming->shown, error);
@@ -72,6 +73,7 @@ gboolean spore_filming_run(const SporeFilming *filming, const SporeProgress *pro
         (SporeFilmed){spore_panes_width(panes), filming->height, count,
                       is_picture(filming) ? 0 : (double)count / filming->fps, g_strdup(spore_panes_renderer(panes))};
     filmed->legends = spore_panes_legends(panes, &filmed->field_end);
+    filmed->legends_left_out = spore_panes_legends_left_out(panes, &filmed->no_legends);
   }
   spore_reel_free(reel);
   spore_panes_free(panes);

@@ -18,6 +18,7 @@ typedef struct SporeFilming {
   SporeStageOptions shown; /* what is drawn */
   SporeClip clip;          /* what is hidden */
   gboolean light;          /* the room, see SporeRenderOptions */
+  gboolean legends;        /* whether pictures carry them */
   const char *ports;       /* whose reach is shown, see spore_stage_find_ports; NULL: none */
   guint count;             /* of simulations, at most SPORE_FILMING_MOST: at time 0, borrowed, and run to the end */
   SporeDocument *documents[SPORE_FILMING_MOST];
@@ -35,6 +36,8 @@ typedef struct SporeFilmed {
   char *gl_renderer; /* g_free */
   char *legends;     /* see spore_panes_legends; g_free */
   double field_end;
+  guint legends_left_out; /* of the last picture, which has no room for them */
+  GError *no_legends;     /* why there are none, though they were asked for; g_clear_error. NULL: there are */
 } SporeFilmed;
 
 /* Writes the file, whole or not at all. FALSE with a GError; SPORE_ERROR_CANCELLED where cancel or progress asked. */

@@ -12,6 +12,8 @@ SporePanes *spore_panes_new(int width, int height, GError **error);
 /* What is hidden in all of them; at first nothing is. */
 void spore_panes_set_clip(SporePanes *panes, const SporeClip *clip);
 void spore_panes_set_light(SporePanes *panes, gboolean light); /* see SporeRenderOptions */
+/* Whether pictures carry their legends; at first they do not. */
+void spore_panes_set_legends(SporePanes *panes, gboolean legends);
 /* Shows what is reached through the ports of that name, see spore_stage_find_ports, in all simulations that are there.
  * FALSE with a GError: there is no such port. */
 gboolean spore_panes_show_ports(SporePanes *panes, const char *name, GError **error);
@@ -23,6 +25,8 @@ gboolean spore_panes_add(SporePanes *panes, SporeDocument *document, SporeSimula
 /* Of the first simulation: the words of its legends, g_free, and the end of its scale of colours
  * (spore_stage_legends_text, spore_stage_field_end). */
 char *spore_panes_legends(const SporePanes *panes, double *field_end);
+/* Legends that the last picture has no room for; G_MAXUINT with a GError: it carries none, and why. */
+guint spore_panes_legends_left_out(const SporePanes *panes, GError **error);
 int spore_panes_width(const SporePanes *panes);            /* of the whole picture */
 const char *spore_panes_renderer(const SporePanes *panes); /* GL_RENDERER */
 /* The simulations as they are now: rows of 4 * width bytes, as spore_renderer_draw gives them. Valid until the next

@@ -94,6 +94,7 @@ typedef struct SporeStageLegend {
   char *high;    /* at the end of the scale, with its unit. NULL: there is no scale, or no body has its colours */
   char *range;   /* what there is to say of the scale; NULL: nothing */
   char *without; /* the soft bodies of which it is not known, or another remark; NULL: none */
+  gboolean tint; /* what is told is shown by the tint of tissue (spore_tint_colour) */
   guint key_count;
   SporeStageKey keys[SPORE_STAGE_LINK_KINDS];
   double end; /* SI */
@@ -102,7 +103,10 @@ typedef struct SporeStageLegend {
 gboolean spore_stage_legend(const SporeStage *stage, SporeStageLegend *legend);
 /* All of it in words, translated; g_free. */
 char *spore_stage_legend_text(const SporeStageLegend *legend);
-/* The words of all legends of what is shown, a line each; g_free. */
+/* All legends of what is shown, each to be cleared; returns their number. */
+#define SPORE_STAGE_LEGENDS 5 /* that a picture has at most, with that of the tint */
+guint spore_stage_legends(const SporeStage *stage, SporeStageLegend legends[SPORE_STAGE_LEGENDS]);
+/* Their words, a line each; g_free. */
 char *spore_stage_legends_text(const SporeStage *stage);
 /* The same of the spheres' errors (spore_stage_sphere_scale), of the lines of contact forces, and of links. */
 gboolean spore_stage_sphere_legend(const SporeStage *stage, SporeStageLegend *legend);

@@ -44,16 +44,22 @@ gboolean spore_stage_contact_legend(const SporeStage *stage, SporeStageLegend *l
   return TRUE;
 }
 
-char *spore_stage_legends_text(const SporeStage *stage) {
+guint spore_stage_legends(const SporeStage *stage, SporeStageLegend legends[SPORE_STAGE_LEGENDS]) {
   gboolean (*const kinds[])(const SporeStage *, SporeStageLegend *) = {
       spore_stage_legend, spore_stage_sphere_legend, spore_stage_contact_legend, spore_stage_link_legend};
+  guint count = 0;
+  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) count += kinds[i](stage, &legends[count]);
+  return count;
+}
+
+char *spore_stage_legends_text(const SporeStage *stage) {
+  SporeStageLegend legends[SPORE_STAGE_LEGENDS];
+  guint count = spore_stage_legends(stage, legends);
   GString *lines = g_string_new(NULL);
-  for (guint i = 0; i < G_N_ELEMENTS(kinds); i++) {
-    SporeStageLegend legend;
-    if (!kinds[i](stage, &legend)) continue;
-    g_autofree char *text = spore_stage_legend_text(&legend);
+  for (guint i = 0; i < count; i++) {
+    g_autofree char *text = spore_stage_legend_text(&legends[i]);
     g_string_append_printf(lines, "%s\n", text);
-    spore_stage_legend_clear(&legend);
+    spore_stage_legend_clear(&legends[i]);
   }
   return g_string_free(lines, FALSE);
 }

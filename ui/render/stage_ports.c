@@ -63,7 +63,7 @@ void spore_stage_set_ports(SporeStage *stage, const SporeStagePort *ports, guint
 }
 
 gboolean spore_stage_reach_legend(guint count, const char *name, SporeStageLegend *legend) {
-  *legend = (SporeStageLegend){0};
+  *legend = (SporeStageLegend){.tint = TRUE};
   if (count == 0) return FALSE;
   legend->label =
       count > 1 ? g_strdup(_("Out of reach of every port")) : g_strdup_printf(_("Out of reach of \"%s\""), name);

@@ -4,8 +4,9 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "ui/document/free-place.h"
 #include "ui/render/colour_scale.h"
+#include "ui/render/free_place.h"
+#include "ui/render/legend.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define MARGIN 12        /* to the sides of the view */
@@ -29,7 +30,6 @@ typedef struct Size {
 
 typedef struct Legend {
   SporeStageLegend of;
-  gboolean tint; /* the bar shows the tint, else the scale of colours */
   SporePlace at;
 } Legend;
 
@@ -62,24 +62,11 @@ static guint collect(SporeViewport *self, Legend legends[MOST]) {
   tell_at(self->colours_button, field ? &legends[count].of : NULL);
   count += field;
   count += spore_stage_sphere_legend(self->stage, &legends[count].of);
-  gboolean reach = spore_viewport_reach_legend(self, &legends[count].of);
-  legends[count].tint = reach;
-  count += reach;
+  count += spore_viewport_reach_legend(self, &legends[count].of);
   count += spore_stage_contact_legend(self->stage, &legends[count].of);
   gboolean links = spore_stage_link_legend(self->stage, &legends[count].of);
   tell_at(self->links_button, links ? &legends[count].of : NULL);
   return count + links;
-}
-
-static gboolean has_bar(const Legend *legend) { return legend->of.high || legend->tint; }
-
-/* The remarks below. A small legend with a scale does without them. */
-static guint notes_of(const Legend *legend, const Size *size, const char *notes[2]) {
-  guint count = 0;
-  if (size->small && legend->of.high) return 0;
-  if (legend->of.range) notes[count++] = legend->of.range;
-  if (legend->of.without) notes[count++] = legend->of.without;
-  return count;
 }
 
 /* Sizes. */
@@ -106,10 +93,17 @@ static Size size_of(SporeViewport *self, gboolean small) {
   return size;
 }
 
+static double height_of_row(const SporeLegendRow *row, const Size *size) {
+  gboolean bar = row->kind == SPORE_LEGEND_BAR || row->kind == SPORE_LEGEND_TINT;
+  return bar ? size->bar + BAR_TEXT_GAP : size->line;
+}
+
 static int height_of(const Legend *legend, const Size *size) {
-  const char *notes[2];
-  double lines = 1 + legend->of.key_count + notes_of(legend, size, notes) + (legend->of.high != NULL);
-  return (int)ceil(lines * size->line + (has_bar(legend) ? size->bar + BAR_TEXT_GAP : 0) + 2 * PADDING);
+  SporeLegendRow rows[SPORE_LEGEND_ROWS];
+  guint count = spore_legend_rows(&legend->of, size->small, rows);
+  double height = 2 * PADDING;
+  for (guint i = 0; i < count; i++) height += height_of_row(&rows[i], size);
+  return (int)ceil(height);
 }
 
 /* Places. */
@@ -178,11 +172,12 @@ static void write_line(SporeViewport *self, cairo_t *cr, const Size *size, const
   pango_cairo_show_layout(cr, layout);
 }
 
-static void draw_bar(cairo_t *cr, const Legend *legend, double x, double y, double width, double height) {
+/* tint: NULL: the scale of colours. */
+static void draw_bar(cairo_t *cr, const double *tint, double x, double y, double width, double height) {
   for (int i = 0; i < (int)width; i++) {
     double colour[3];
     spore_colour_scale(i / width, colour);
-    const double *shown = legend->tint ? spore_tint_colour : colour;
+    const double *shown = tint ? tint : colour;
     cairo_set_source_rgb(cr, shown[0], shown[1], shown[2]);
     cairo_rectangle(cr, x + i, y, 1, height);
     cairo_fill(cr);
@@ -190,7 +185,7 @@ static void draw_bar(cairo_t *cr, const Legend *legend, double x, double y, doub
 }
 
 /* A patch of the colour, and what the colour means. */
-static void draw_key(SporeViewport *self, cairo_t *cr, const Size *size, const SporeStageKey *key, double x, double y,
+static void draw_key(SporeViewport *self, cairo_t *cr, const Size *size, const SporeLegendRow *key, double x, double y,
                      double width) {
   double side = KEY_SHARE * size->line;
   cairo_set_source_rgb(cr, key->colour[0], key->colour[1], key->colour[2]);
@@ -202,30 +197,40 @@ static void draw_key(SporeViewport *self, cairo_t *cr, const Size *size, const S
   write_line(self, cr, size, key->text, x + 2 * side, y, width - 2 * side, 0);
 }
 
+static void draw_row(SporeViewport *self, cairo_t *cr, const Size *size, const SporeLegendRow *row, double x, double y,
+                     double width) {
+  switch (row->kind) {
+  case SPORE_LEGEND_BAR:
+  case SPORE_LEGEND_TINT:
+    draw_bar(cr, row->colour, x, y, width, size->bar);
+    break;
+  case SPORE_LEGEND_KEY:
+    draw_key(self, cr, size, row, x, y, width);
+    break;
+  case SPORE_LEGEND_ENDS:
+    write_line(self, cr, size, row->end_text, x, y, width, 1);
+    write_line(self, cr, size, row->text, x, y, width, 0);
+    break;
+  case SPORE_LEGEND_LINE:
+    write_line(self, cr, size, row->text, x, y, width, 0);
+    break;
+  }
+}
+
 /* others: that found no place, which is said here. */
 static void draw_legend(SporeViewport *self, cairo_t *cr, const Legend *legend, const Size *size, guint others) {
-  const char *notes[2];
-  guint note_count = notes_of(legend, size, notes);
+  SporeLegendRow rows[SPORE_LEGEND_ROWS];
+  guint count = spore_legend_rows(&legend->of, size->small, rows);
   double x = legend->at.x + PADDING, y = legend->at.y + PADDING, width = size->width - 2 * PADDING;
   draw_box(self, cr, &legend->at);
-  write_line(self, cr, size, legend->of.label, x, y, others ? (1 - OTHERS_SHARE) * width : width, 0);
   if (others) {
     g_autofree char *text = g_strdup_printf(_("+ %u more"), others);
     write_line(self, cr, size, text, x + (1 - OTHERS_SHARE) * width, y, OTHERS_SHARE * width, 1);
   }
-  y += size->line;
-  if (has_bar(legend)) {
-    draw_bar(cr, legend, x, y, width, size->bar);
-    y += size->bar + BAR_TEXT_GAP;
+  for (guint i = 0; i < count; i++) {
+    draw_row(self, cr, size, &rows[i], x, y, i == 0 && others ? (1 - OTHERS_SHARE) * width : width);
+    y += height_of_row(&rows[i], size);
   }
-  if (legend->of.high) {
-    write_line(self, cr, size, legend->of.low, x, y, width, 0);
-    write_line(self, cr, size, legend->of.high, x, y, width, 1);
-    y += size->line;
-  }
-  for (guint i = 0; i < legend->of.key_count; i++, y += size->line)
-    draw_key(self, cr, size, &legend->of.keys[i], x, y, width);
-  for (guint i = 0; i < note_count; i++, y += size->line) write_line(self, cr, size, notes[i], x, y, width, 0);
 }
 
 void spore_viewport_legends_draw(SporeViewport *self, cairo_t *cr, int width, int height) {

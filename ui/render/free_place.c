@@ -1,6 +1,6 @@
 /* A place that is farthest to the right, or lowest, touches the side of the view or what lies around: only such places
  * are looked at. */
-#include "ui/document/free-place.h"
+#include "ui/render/free_place.h"
 
 static gboolean are_apart(const SporePlace *one, const SporePlace *other, int gap) {
   return one->x + one->width + gap <= other->x || other->x + other->width + gap <= one->x ||

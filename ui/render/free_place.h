@@ -1,6 +1,6 @@
 /* A place on the screen where nothing else lies. */
-#ifndef SPORE_UI_DOCUMENT_FREE_PLACE_H
-#define SPORE_UI_DOCUMENT_FREE_PLACE_H
+#ifndef SPORE_UI_RENDER_FREE_PLACE_H
+#define SPORE_UI_RENDER_FREE_PLACE_H
 
 #include <glib.h>
 
