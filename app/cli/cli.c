@@ -77,6 +77,15 @@ int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEn
   return spore_cli_parse_with(cli, info, entries, NULL, argc, argv);
 }
 
+/* GLib leaves "--" where it is when what follows begins with a dash. */
+static void drop_end_of_options(int *argc, char **argv) {
+  int end = 1;
+  while (end < *argc && !g_str_equal(argv[end], "--")) end++;
+  if (end == *argc) return;
+  for (int i = end; i < *argc; i++) argv[i] = argv[i + 1];
+  --*argc;
+}
+
 int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, gpointer data,
                          int *argc, char ***argv) {
   const GOptionEntry shared[] = {
@@ -95,6 +104,7 @@ int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOpt
   g_autoptr(GError) error = NULL;
   if (!g_option_context_parse(context, argc, argv, &error))
     return spore_cli_usage(_("spore %s: %s; see `spore %s --help`"), info->name, error->message, info->name);
+  drop_end_of_options(argc, *argv);
   if (*argc - 1 < info->minimum || *argc - 1 > info->maximum)
     return spore_cli_usage(_("spore %s: %d plain arguments given; expected %s; see `spore %s --help`"), info->name,
                            *argc - 1, info->arguments, info->name);

@@ -118,6 +118,9 @@ def help_lists_commands():
     refuses("fly", says=["fly"])
     refuses("run", says=["SCENE"])
     refuses("run", "--no-such-option", "x", says=["no-such-option"])
+    (WORK / "-a dash first.spore").write_text('<spore version="1.0"/>')
+    assert "-a dash first.spore:1:1: note: the scene has no bodies" in spore("check", "--", "-a dash first.spore").stdout
+    refuses("check", "--", "-none", says=["-none: there is no such file"])
 
 
 @check

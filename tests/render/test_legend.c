@@ -37,6 +37,8 @@ static void test_rows(void) {
   assert_rows(&full, FALSE, "ltbekkkkkkkkll");
 }
 
+#ifdef SPORE_HAVE_PIXBUF
+
 typedef struct Drawn {
   guint8 pixels[HEIGHT * STRIDE];
   guint left_out;
@@ -112,6 +114,8 @@ static void test_room(void) {
   g_assert_cmpuint(drawn->left_out, ==, 3);
   g_assert_cmpint(drawn->right, ==, -1);
 }
+
+#endif
 
 /* Without a picture the reason is told, and the pixels stay. */
 static void test_without(void) {
