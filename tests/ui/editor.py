@@ -1,5 +1,6 @@
 """An editor under a display, a session bus and an accessibility bus of its own, driven as a user's hands would or by its
 actions over D-Bus (named in ui/spore-window.h)."""
+import itertools
 import os
 import pathlib
 import re
@@ -91,6 +92,8 @@ class Editor:
         return self
 
     def __exit__(self, kind, error, trace):
+        if kind:
+            self.keep_picture(f"failed-{self.process.pid}")
         if self.process.poll() is None:
             self.process.terminate()
         messages = self.process.communicate(timeout=20)[1]
@@ -304,10 +307,15 @@ class Editor:
         """Gives the keyboard to the newest window: there is no window manager here to do so."""
         active = self.atspi.StateType.ACTIVE
 
-        def focused():  # the newest one may be about to close
-            ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], capture_output=True,
-                                 text=True).stdout.split()
-            subprocess.run(["xdotool", "windowfocus", ids[-1]], stderr=subprocess.DEVNULL)
+        asked = itertools.count()
+
+        def xdotool(*words):
+            return subprocess.run(["xdotool", *words], capture_output=True, text=True).stdout.split()
+
+        def focused():  # the newest one may be about to close; one that had the keyboard before is told only when it gets it anew
+            if next(asked) % 5 == 4:
+                xdotool("windowfocus", xdotool("search", "--maxdepth", "0", ".*")[0])
+            xdotool("windowfocus", xdotool("search", "--onlyvisible", "--pid", str(self.process.pid))[-1])
             return any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog|file chooser"))
         wait(focused, "a window to be active")
 
@@ -321,6 +329,17 @@ class Editor:
         """(x, y, width, height) on the screen."""
         box = self.atspi.Component.get_extents(node, self.atspi.CoordType.SCREEN)
         return box.x, box.y, box.width, box.height
+
+    def keep_picture(self, name):
+        """Keeps a picture of the screen in the folder that SPORE_PICTURES names, for who wants to look at it."""
+        folder = os.environ.get("SPORE_PICTURES")
+        if not folder:
+            return
+        import gi
+        gi.require_version("Gdk", "3.0")
+        from gi.repository import Gdk
+        root = Gdk.get_default_root_window()
+        Gdk.pixbuf_get_from_window(root, 0, 0, root.get_width(), root.get_height()).savev(f"{folder}/{name}.png", "png", [], [])
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)

@@ -105,7 +105,7 @@ def templates_to_begin_with():
     with start() as editor:
         editor.find("toggle button", "^Templates$")
         picture = editor.find("push button", "^Thread: ")
-        keep_picture(editor, "templates")
+        editor.keep_picture("templates")
         editor.press(picture)
         ui.wait(lambda: editor.row("probe") or editor.enabled("play"), "the scene")
         editor.find("label", "^Untitled$")
@@ -121,7 +121,7 @@ def templates_to_begin_with():
         editor.act("new")
         ui.wait(lambda: not editor.enabled("play"), "the empty scene")
         recent = editor.find("toggle button", "^Recent$")
-        keep_picture(editor, "recent")
+        editor.keep_picture("recent")
         editor.press(recent)
         editor.press(editor.find(".*menu item|.*button", "template/scene.spore$"))
         ui.wait(lambda: editor.enabled("play"), "the scene of before")
@@ -166,7 +166,7 @@ def lay_a_picture(editor):
     assert not green(editor)
     editor.act("lay-picture", "s", str(picture))
     ui.wait(lambda: green(editor) > 100, "the picture on the organ")
-    keep_picture(editor, "textured")
+    editor.keep_picture("textured")
     assert 'texture="worn-' in saved(editor, "textured")
     editor.act("undo")
     ui.wait(lambda: not green(editor), "the picture to go")
@@ -217,7 +217,7 @@ def a_heavy_mesh_is_offered_to_be_decimated():
         editor.act("import-dialog-with", "as", [str(path)])
         editor.find("label", "^heavy: it has 259200 triangles, and spheres and tetrahedra fit as well from 100000 on")
         button = inside(editor, "Import mesh", "push button", "^Decimate to 100000$")
-        keep_picture(editor, "heavy-import")
+        editor.keep_picture("heavy-import")
         editor.press(button)
         spin = editor.find("spin button", "^triangles$")
         ui.wait(lambda: spin.get_state_set().contains(editor.atspi.StateType.SENSITIVE) and editor.atspi.Value.get_current_value(spin) == 100000,
@@ -226,7 +226,7 @@ def a_heavy_mesh_is_offered_to_be_decimated():
         editor.find("label", "^heavy: it has 259200 triangles")
         editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
         ui.wait(lambda: editor.row("heavy") and editor.look("push button", "^Decimate to 100000$"), "the organ, and the word on it")
-        keep_picture(editor, "heavy")
+        editor.keep_picture("heavy")
         editor.act("undo")
         ui.wait(lambda: not editor.row("heavy") and not editor.look("push button", "^Decimate to"), "the organ and the word on it to go")
 
@@ -453,10 +453,10 @@ def spheres_round_each_tetrahedron_beside_the_fit():
         editor.act("select", "s", "bodies/ball")
         editor.act("preview-spheres", "u", 8)
         editor.find("label", r"(?s)^8 spheres.*\nOne round each tetrahedron instead: 443 spheres, coverage .* depth error ", 60)
-        keep_picture(editor, "round-fit")
+        editor.keep_picture("round-fit")
         editor.choose(editor.find("combo box", "^Method$"), "Tetrahedra")
         editor.find("label", r"(?s)^443 spheres.*\nFitted instead: 8 spheres, coverage .* depth error ", 60)
-        keep_picture(editor, "round-each")
+        editor.keep_picture("round-each")
 
 
 @check
@@ -556,7 +556,7 @@ def stale_and_frozen():
             if cell:
                 click(editor, middle(editor, cell))
             if editor.look("push button", "^Generate it$") and editor.enabled("fix"):
-                keep_picture(editor, "fix-offered")
+                editor.keep_picture("fix-offered")
                 editor.act("fix")
         editor.find("label", "^Stale", showing=False)
         ui.wait(mended, "the fix", 60)
@@ -770,18 +770,6 @@ def picture_of(editor, widget):
     """Pixels of the screen where the widget is."""
     editor.drawn_view()
     return on_screen(*editor.place(widget)).get_pixels()
-
-
-def keep_picture(editor, name):
-    """Keeps a picture of the screen in the folder that SPORE_PICTURES names, for who wants to look at it."""
-    folder_ = os.environ.get("SPORE_PICTURES")
-    if not folder_:
-        return
-    import gi
-    gi.require_version("Gdk", "3.0")
-    from gi.repository import Gdk
-    root = Gdk.get_default_root_window()
-    Gdk.pixbuf_get_from_window(root, 0, 0, root.get_width(), root.get_height()).savev(f"{folder_}/{name}.png", "png", [], [])
 
 
 def yellow(editor):
@@ -1257,7 +1245,7 @@ def a_region_is_painted():
         assert painted.count("<region ") == 1, painted
         editor.find("label", f"^Painted with {fine} dabs. Holds [0-9]+ of [0-9]+ tetrahedra", showing=False)
         editor.drawn_view()
-        keep_picture(editor, "painted_region")
+        editor.keep_picture("painted_region")
         # A wider brush covers the dabs of the narrow one, and what is said of the region follows.
         editor.mouse("mousemove", middle[0] + 30, middle[1], *("click", 4) * 14)
         editor.mouse("click", 1)
@@ -1330,7 +1318,7 @@ def inspector_sets_a_property():
             editor.set_entry(rotation(), typed)
             editor.find("label", says, showing=False)
         assert re.search(r'rotation="0 0 1\.571"', saved(editor, "property")), "what is refused is not written"
-        keep_picture(editor, "degrees")
+        editor.keep_picture("degrees")
 
 
 @check
@@ -1388,7 +1376,7 @@ def play_pause_step_reset():
         end = standing_time(editor)
         editor.press(editor.find("push button", f"^{stood:.3f} s$"))
         ui.wait(lambda: editor.says("label", f"^{stood:.3f} of {end:.3f} s$"), "the bookmark's time")
-        keep_picture(editor, "timeline")
+        editor.keep_picture("timeline")
         editor.act("replay")
         ui.wait(lambda: editor.says("label", f"^{end:.3f} of {end:.3f} s$"), "the end of the run")
         editor.act("set-property", "(sss)", ("environment", "gravity", "0 -3 0"))
@@ -1401,7 +1389,7 @@ def play_pause_step_reset():
         ui.wait(lambda: editor.time_s() > 0.02, "time to advance once more")
         editor.press(editor.find("push button", "^Keep this pose$"))
         ui.wait(lambda: "begins so from now on" in (editor.message() or ""), "the pose to be kept")
-        keep_picture(editor, "kept-pose")
+        editor.keep_picture("kept-pose")
         kept = saved(editor, "kept")
         assert kept.count("kept_pose=") == 1
         editor.act("reset")
@@ -1564,7 +1552,7 @@ def a_scene_is_exported():
         ui.wait(lambda: sensitive(time_s), "the time to be asked for")
         editor.press(editor.find("radio button", "^OBJ$"))
         ui.wait(lambda: not editor.look("spin button", "^Time between moments, s$"), "one moment alone")
-        keep_picture(editor, "export")
+        editor.keep_picture("export")
         editor.press(editor.find("radio button", "^Film$"))
         editor.find("spin button", "^Time between moments, s$")
         editor.press(editor.find("radio button", "^Picture$"))
@@ -1573,7 +1561,7 @@ def a_scene_is_exported():
         ui.wait(lambda: not editor.look("dialog", "^Export$"), "the dialog to close")
         editor.act("export", "(ssdd)", ("bundle", str(bundle), 0, 0))
         editor.find("label", r"^Written\n.*scene\.sporez: \d", 60)
-        keep_picture(editor, "exported")
+        editor.keep_picture("exported")
         editor.press(inside(editor, "Exported", "push button", "^Close$"))
         assert hash_of(bundle) == hash_of(scene)
         editor.act("export", "(ssdd)", ("vtk", str(series), 0.02, 0.01))
@@ -1602,7 +1590,7 @@ def a_scene_is_exported():
         editor.mouse("key", "ctrl+a", "type", str(made / "played"))
         editor.keys("Return")
         editor.find("label", r"^Written\n.*played\.ply: \d", 60)
-        keep_picture(editor, "played")
+        editor.keep_picture("played")
 
 
 @check
@@ -2168,7 +2156,7 @@ def a_missing_file_is_located():
     with start(lost) as editor:
         editor.find("label", "files? of the scene (is|are) not in its folder: gone/")
         assert editor.row("ball"), "what is there is shown"
-        keep_picture(editor, "missing")
+        editor.keep_picture("missing")
         missing = re.findall(r'file="(gone/[^"]+)"', text)
         editor.act("locate", "(ss)", (missing[0], str(lost)))
         ui.wait(lambda: "lost.spore" in (editor.message() or ""), "the refusal")
@@ -2183,7 +2171,7 @@ def a_missing_file_is_located():
         editor.keys("Return")
         ui.wait(lambda: editor.enabled("undo"), "the files")
         ui.wait(lambda: not editor.look("label", "of the scene (is|are) not in its folder"), "the offer to go")
-        keep_picture(editor, "located")
+        editor.keep_picture("located")
         assert "gone/" not in saved(editor, "located")
         editor.act("play")
         ui.wait(lambda: editor.time_s(), "the scene to play")
@@ -2199,28 +2187,42 @@ def order_of(text, group="bodies"):
 
 def drag_row(editor, name, onto, done):
     """Drags a row to the upper rim of another one, a little with each question, until that is done: when the program takes up a drag,
-    and when it has seen the last way of the mouse, is its own affair. Escape ends what a drag that came to nothing left behind."""
+    and when it has seen the last way of the mouse, is its own affair. A drag that comes late meets rows that the next one moves
+    from where they are no more: the next one is given up then, and what went wrong is undone."""
     place = lambda row: editor.place(ui.wait(lambda: editor.row(row), row))
-    tried = []
+    before = saved(editor, "before-dragging")
+
+    def is_done():  # the list may be made anew just then
+        try:
+            return done()
+        except AssertionError:
+            raise
+        except Exception:
+            return False
+
+    def drag(begin):
+        (x, y, width, height), (to_x, to_y, _, _) = place(name), place(onto)
+        for step in (("mousemove", x + begin, y + height // 2, "mousedown", 1), ("mousemove", x + begin + 10, y + height // 2 + 8),
+                     ("mousemove", to_x + 30, to_y + 5), ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3)):
+            editor.mouse(*step)
+            yield is_done()
+        editor.mouse("mouseup", 1)
+        for _ in range(20):
+            yield is_done()
 
     def tries():
-        for begin in itertools.cycle((8, 20, 32)):
-            x, y, width, height = place(name)
-            to_x, to_y, _, _ = place(onto)
-            tried.append((x, y, to_x, to_y))
-            for step in (("mousemove", x + begin, y + height // 2, "mousedown", 1), ("mousemove", x + begin + 10, y + height // 2 + 8),
-                         ("mousemove", to_x + 30, to_y + 5), ("mousemove", to_x + 21, to_y + 4), ("mousemove", to_x + 20, to_y + 3),
-                         ("mouseup", 1)):
-                editor.mouse(*step)
+        for number, begin in enumerate(itertools.cycle((8, 20, 32))):
+            for came in drag(begin):
+                if came:
+                    editor.keys("Escape")
+                    editor.mouse("mouseup", 1)
+                    yield True
                 yield False
-            for _ in range(6):
-                yield done()
             editor.keys("Escape")
+            if saved(editor, f"dragging-{number}") != before:
+                editor.act("undo")
     answers = tries()
-    try:
-        ui.wait(lambda: next(answers), f"{name} to be dragged")
-    except AssertionError as error:
-        raise AssertionError(f"{error}, from and to {tried}; the scene has {order_of(saved(editor, 'not-dragged'))}") from None
+    ui.wait(lambda: next(answers), f"{name} to be dragged", 2 * ui.PATIENCE_S)
 
 
 def locked_bodies_are_looked_through(editor):
@@ -2236,7 +2238,7 @@ def locked_bodies_are_looked_through(editor):
     editor.act("lock")
     editor.act("select", "s", "bodies/third")
     ui.wait(lambda: title("third"), "another selection")
-    keep_picture(editor, "locked")
+    editor.keep_picture("locked")
     ui.wait(lambda: click() or not title("third"), "the click to come")
     assert not title("ball"), "it goes through the locked ball"
     assert not editor.enabled("lock") and editor.enabled("unlock-all")
@@ -2251,7 +2253,7 @@ def folders_of_the_outliner(editor, row_at):
     ui.wait(lambda: editor.row("Folder") and row_at("Folder")[1] < row_at("third")[1], "a folder with the body in it")
     drag_row(editor, "ball", "Folder", lambda: row_at("Folder")[1] < row_at("ball")[1] < row_at("third")[1] < row_at("floor")[1])
     assert re.findall(r'<body name="(\w+)"[^>]*folder="Folder"', saved(editor, "folder")) == ["ball", "third"]
-    keep_picture(editor, "folder")
+    editor.keep_picture("folder")
     editor.atspi.Component.grab_focus(editor.find("tree table", "^Outliner$"))
     ui.wait(lambda: editor.keys("Left") or not editor.row("third"), "Left to go to the folder, and to fold it")
     editor.act("undo")
@@ -2288,7 +2290,7 @@ def rows_of_the_outliner_are_ordered():
         editor.press(editor.find("menu item", "^Move down$"))
         ui.wait(lambda: row_at("ball")[1] < row_at("third")[1], "the row to go down")
         assert order_of(saved(editor, "down")) == ["ball", "third", "floor"]
-        keep_picture(editor, "outliner")
+        editor.keep_picture("outliner")
         drag_row(editor, "floor", "ball", lambda: row_at("floor")[1] < row_at("ball")[1] < row_at("third")[1])
         assert order_of(saved(editor, "dragged")) == ["floor", "ball", "third"]
         editor.act("undo")
@@ -2313,7 +2315,7 @@ def a_message_offers_the_fix_of_its_cause():
         assert not editor.look("push button", "^Set substeps to")
         editor.act("play")
         editor.find("label", "is too large for symplectic_euler")
-        keep_picture(editor, "said-fix")
+        editor.keep_picture("said-fix")
         editor.press(editor.find("push button", "^Set substeps to"))
         ui.wait(lambda: "substeps=" in saved(editor, "finer"), "the substeps")
         ui.wait(lambda: not editor.look("label", "is too large for symplectic_euler"), "the message to go")
@@ -2339,7 +2341,7 @@ def what_nothing_holds_is_offered_to_be_held():
         editor.act("select", "s", "bodies/ball")
         editor.act("delete")
         editor.find("label", "^[0-9] things went along, since nothing else uses them: .*Mesh ball")
-        keep_picture(editor, "along")
+        editor.keep_picture("along")
         ui.wait(lambda: not editor.row("one"), "its spheres to go")
         editor.press(editor.find("push button", "^Keep them$"))
         ui.wait(lambda: editor.row("one"), "its spheres to come back")
@@ -2358,7 +2360,7 @@ def the_view_has_the_whole_screen():
         editor.keys("F11")
         editor.find("label", "^F11 or Escape brings the panels back")
         editor.find("label", "^For training and preview only$")
-        keep_picture(editor, "presented")
+        editor.keep_picture("presented")
         ui.wait(lambda: not editor.row("ball") and editor.place(editor.find(".*", "^Viewport$"))[2] > before[2], "the panels to go")
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
         editor.mouse("mousemove", x + 20, y + height - 60, "click", 1)
@@ -2426,11 +2428,11 @@ def dark_and_light_follow_the_system():
         with start(XDG_CONFIG_HOME=choices) as editor:
             ui.wait(lambda: is_dark(editor) is True, "dark windows")
             ui.wait(lambda: is_dark_room(editor), "a dark room")
-            keep_picture(editor, "dark")
+            editor.keep_picture("dark")
             desktop.change(2)
             ui.wait(lambda: is_dark(editor) is False, "light windows")
             ui.wait(lambda: not is_dark_room(editor), "a light room")
-            keep_picture(editor, "light")
+            editor.keep_picture("light")
             editor.act("present")
             ui.wait(lambda: is_dark_room(editor), "a dark room to work in")
             editor.act("present")
@@ -2460,12 +2462,12 @@ def preferences_are_kept_and_reset():
         editor.choose(box("Keeping unsaved work"), "Every 5 minutes")
         editor.choose(box("Quality of pictures"), "Always plain")
         editor.choose(box("Length unit of imports"), "cm")
-        keep_picture(editor, "preferences")
+        editor.keep_picture("preferences")
         editor.keys("Escape")
         ui.wait(lambda: not editor.look("dialog", "^Preferences$"), "the window of preferences to close")
         editor.act("import-dialog-with", "as", [str(ball())])
         editor.find("label", "the unit, cm, is that of the preferences")
-        keep_picture(editor, "preferred-unit")
+        editor.keep_picture("preferred-unit")
         editor.press(editor.find("push button", "^Cancel$"))
         ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
         editor.find("push button", "^Import$")  # in English still
@@ -2474,7 +2476,7 @@ def preferences_are_kept_and_reset():
         ui.wait(lambda: is_dark(editor, "Gravité") is True, "what was chosen once")
         editor.mouse("key", "ctrl+comma")
         editor.find("dialog", "^Préférences$")
-        keep_picture(editor, "preferences-french")
+        editor.keep_picture("preferences-french")
         assert editor.chosen(inside(editor, "Préférences", "combo box", "^Molette dans la vue$")) == "Éloigne"
         editor.press(inside(editor, "Préférences", "push button", "^Tout réinitialiser$"))
         ui.wait(lambda: is_dark(editor, "Gravité") is False, "the presets")
@@ -2526,7 +2528,7 @@ def a_trainee_follows_the_exercise_on_the_whole_screen():
         editor.act("pause")
         editor.find("label", r"^\d+\.\d\d of 30 s$")
         editor.find("label", "^✓$")
-        keep_picture(editor, "guided")
+        editor.keep_picture("guided")
         ui.wait(lambda: picture_of(editor, second) != at_rest, "the second view to follow the run")
         editor.press(large["Camera"])
         editor.find("label", "^The mouse works in: scope$")
@@ -2632,7 +2634,7 @@ def a_drag_beside_turns_the_view():
         eye = tree[0] + tree[2] - 38, row[1] + row[3] // 2  # before the lock
         click(eye)
         editor.find("label", "^1 body is hidden, A shows all")
-        keep_picture(editor, "eye")
+        editor.keep_picture("eye")
         assert not selects(at), "its eye hides a body"
         click(eye)
         ui.wait(lambda: not editor.look("label", "is hidden"), "the body to be shown again")
@@ -2743,7 +2745,7 @@ def what_is_seen_is_measured():
         editor.act("measure", "s", "volume")
         click(0, 0)
         assert ui.wait(lambda: millimetres(editor, r"^4  Volume ([\d.]+) cm³$"), "the volume") == 144
-        keep_picture(editor, "measures")
+        editor.keep_picture("measures")
 
         editor.press(editor.find("push button", "^Remove measure 2$"))
         ui.wait(lambda: not editor.look("label", "^2  Distance") and editor.look("label", "^1  Distance"), "the measure to go")
@@ -2789,7 +2791,7 @@ def a_plane_opens_the_view():
         ui.wait(lambda: not editor.showing(item), "the menu to close")
         slider = editor.find("slider", "^Place of the cut plane$")
         half = ui.wait(lambda: (lambda now: now != whole and now)(picture(editor)), "the balls to be cut")
-        keep_picture(editor, "cut")
+        editor.keep_picture("cut")
         editor.mouse("mousemove", *left, "click", 1)
         ui.wait(lambda: editor.enabled("delete"), "what is seen to be picked")
         editor.act("select", "s", "solver")
@@ -2815,7 +2817,7 @@ def the_patient_is_laid():
         gravity = editor.find("text", "^Gravity$")
         editor.press(editor.find("toggle button", "^The patient lies…$"))
         item = editor.find("menu item|push button|check box|radio button", r"^Head 15° down \(Trendelenburg\)$")
-        keep_picture(editor, "patient")
+        editor.keep_picture("patient")
         editor.press(item)
         ui.wait(lambda: editor.state("patient") == "trendelenburg", "the patient to be laid")
         ui.wait(lambda: editor.text_of(gravity) == "0 2.539 9.4757", "gravity to be turned")
@@ -2902,7 +2904,7 @@ def port_moved_in_the_view():
         handle = lambda: beside((middle[0] - 10, middle[1] - 2, 0)) > 160  # is drawn in the middle
         ui.wait(handle, "the handle")
         editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0)
-        keep_picture(editor, "port")
+        editor.keep_picture("port")
         editor.mouse("key", "Escape")
         editor.mouse("mouseup", 1)
         assert not editor.enabled("undo") and port() == before
@@ -2911,7 +2913,7 @@ def port_moved_in_the_view():
         place, rotation = port()
         assert place[0] > 0.01 and abs(place[1] - 0.2) < 1e-3 and rotation is not None, (place, rotation)
         assert abs(place[2]) < 1e-3, f"there is no surface beside it: {place}"
-        keep_picture(editor, "port-moved")
+        editor.keep_picture("port-moved")
         editor.act("undo")
         ui.wait(lambda: port() == before and handle(), "the step to be undone")
         editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", -30, 0, "mousemove_relative", "--", -30, 0, "mouseup", 1)
@@ -2919,7 +2921,7 @@ def port_moved_in_the_view():
         place, _ = port()
         off = math.dist(place, (-0.07, 0.2, -0.025))
         assert abs(off - 0.03) < 1e-3 and abs(place[2]) > 1e-3, f"it lies on the wall: {place}, {off}"
-        keep_picture(editor, "port-on-surface")
+        editor.keep_picture("port-on-surface")
         editor.act("undo")
         ui.wait(lambda: not editor.enabled("undo"), "one step to undo")
         assert port() == before
@@ -2927,7 +2929,7 @@ def port_moved_in_the_view():
         assert not editor.state("show-reach")
         editor.press(editor.find("toggle button", "^Reach$"))
         ui.wait(lambda: blue(editor) > axis + 300, "the wall beside the cone to be tinted")
-        keep_picture(editor, "reach")
+        editor.keep_picture("reach")
         editor.act("show-reach")
         ui.wait(lambda: blue(editor) < axis + 50, "the tint to go")
 
@@ -2940,7 +2942,7 @@ def cube_and_box():
     with start(path) as editor:
         seen = lambda words: lambda: re.search(f"^Seen from {words}$", editor.find(".*", "^Axes of the scene").get_description() or "")
         editor.drawn_view()
-        keep_picture(editor, "cube")
+        editor.keep_picture("cube")
         editor.act("view", "s", "top")
         ui.wait(seen(r"superior \(Y\)"), "the head of the patient")
         editor.act("view", "s", "front")
@@ -2953,14 +2955,14 @@ def cube_and_box():
         editor.act("box-select")
         editor.find("label", "^Drag a box: to the right")
         box(20, low, width // 2, high)  # to the right: the left ball alone lies in it
-        keep_picture(editor, "box")
+        editor.keep_picture("box")
         editor.mouse("mouseup", 1)
         ui.wait(lambda: not editor.state("box-select"), "the box to be over")
         editor.find("label", "^left$")
         editor.act("box-select")
         editor.find("label", "^Drag a box: to the right")
         box(width // 2 + 60, high, width // 2 - 60, low)
-        keep_picture(editor, "box-touches")
+        editor.keep_picture("box-touches")
         editor.mouse("mouseup", 1)
         editor.find("label", "^2 bodies$")
         editor.mouse("keydown", "ctrl", "keydown", "shift")
@@ -2976,7 +2978,7 @@ def cube_and_box():
         ui.wait(seen(r"anterior \(−Z\)"), "the side beyond the left edge")
         editor.mouse("mousemove", x + 40, y + height - 100, "mousedown", 2, "mousemove_relative", "--", 40, 40, "mousemove_relative", "--", 40, 40, "mouseup", 2)
         editor.drawn_view()
-        keep_picture(editor, "cube-turned")
+        editor.keep_picture("cube-turned")
         cube = editor.place(editor.find(".*", "^Axes of the scene"))
         click(editor, (cube[0] + cube[2] // 2, cube[1] + 14))
         ui.wait(seen(r"superior \(Y\)"), "the upper face")
@@ -2989,7 +2991,7 @@ def colours_show_the_state():
         button = lambda: editor.find("toggle button", "^Colours$")
         says = lambda words: lambda: re.search(words, button().get_description() or "")
         editor.drawn_view()
-        keep_picture(editor, "colours-own")
+        editor.keep_picture("colours-own")
         editor.act("colours", "s", "strain")
         ui.wait(says("known once the scene runs$"), "the legend to say what is missing")
         editor.act("step")
@@ -2997,13 +2999,13 @@ def colours_show_the_state():
         editor.act("keep-scale")
         ui.wait(says(r"0 to [\d.]+ % \(fixed scale\)$"), "the scale to be fixed")
         editor.drawn_view()
-        keep_picture(editor, "colours-strain")
+        editor.keep_picture("colours-strain")
         editor.act("colours", "s", "stress")
         ui.wait(says(r"^Stress, von Mises \(Cauchy\): no stress in its law: \w+"), "the body without stress")
         assert not editor.state("keep-scale"), "another measure has another scale"
         editor.act("colours", "s", "velocity")
         ui.wait(says(r"^Speed: 0 to "), "speed")
-        keep_picture(editor, "colours-speed")
+        editor.keep_picture("colours-speed")
         editor.act("colours", "s", "level")
         ui.wait(says("^Level of detail: nothing here has several levels$"), "levels")
         editor.act("colours", "s", "cells")
@@ -3012,7 +3014,7 @@ def colours_show_the_state():
         editor.act("show-contacts")
         editor.act("show-spheres")
         editor.drawn_view()
-        keep_picture(editor, "legends")
+        editor.keep_picture("legends")
         editor.act("colours", "s", "none")
         ui.wait(says("^$"), "the legend to go")
 
@@ -3053,7 +3055,7 @@ def moved_by_the_gizmo():
         assert not editor.enabled("undo")
         editor.mouse("mousemove", *end, "mousedown", 1, "keydown", "ctrl", "mousemove", end[0] + 20, end[1] - 9, "mousemove", end[0] + 40, end[1] - 20)
         ui.wait(lambda: red_end(editor) and red_end(editor)[0] > end[0] + 20, "the drag to be seen")
-        keep_picture(editor, "gizmo-move")
+        editor.keep_picture("gizmo-move")
         editor.mouse("mouseup", 1, "keyup", "ctrl")
         ui.wait(lambda: editor.enabled("undo"), "one step")
         at, cord = body()
@@ -3065,12 +3067,12 @@ def moved_by_the_gizmo():
         editor.keys("e")
         ui.wait(lambda: editor.state("gizmo") == "turn", "E to turn")
         ui.wait(lambda: red_end(editor), "the rings")
-        keep_picture(editor, "gizmo-turn")
+        editor.keep_picture("gizmo-turn")
         editor.keys("r")
         grip = ui.wait(lambda: editor.state("gizmo") == "scale" and red_end(editor), "R to scale")
         editor.mouse("mousemove", *grip, "mousedown", 1, "keydown", "ctrl", "mousemove", grip[0] + 20, grip[1], "mousemove", grip[0] + 44, grip[1])
         ui.wait(lambda: red_end(editor) and red_end(editor)[0] > grip[0] + 35, "the size to be seen")
-        keep_picture(editor, "gizmo-scale")
+        editor.keep_picture("gizmo-scale")
         editor.mouse("mouseup", 1, "keyup", "ctrl")
         ui.wait(lambda: editor.enabled("undo"), "one step")
         at, cord = body()
@@ -3087,7 +3089,7 @@ def moved_by_the_gizmo():
         editor.act("select", "s", "bodies/left")
         editor.act("mirror", "s", "x-scene")
         ui.wait(lambda: editor.row("right-2"), "the mirrored copy")
-        keep_picture(editor, "mirror")
+        editor.keep_picture("mirror")
         root = xml.etree.ElementTree.fromstring(saved(editor, "gizmo"))
         assert vector(root.find("bodies/body[@name='right-2']").get("position")) == [0.035, 0, 0]
         assert len(root.findall("links/spring")) == 2, "the cord is mirrored, too"
@@ -3137,7 +3139,7 @@ def every_instrument_is_placed():
             tip = vector(root.find(f"bodies/body[@name='{kind}_1']").get("position"))
             assert kind == "bag" or tip[0] > 0.0, (kind, tip)
             assert (root.find("bodies/body[@name='bag_1_film']") is not None) == (kind == "bag") == bool(root.findall("links/ball")), kind
-            keep_picture(editor, f"placed-{kind}")
+            editor.keep_picture(f"placed-{kind}")
             if kind == "bag":
                 editor.act("delete")
                 ui.wait(lambda: not editor.row("bag_1_film") and not editor.row("bag_1_1"), "the film and its ties to be deleted with it")
@@ -3281,7 +3283,7 @@ def messages_go_with_their_cause():
         view = editor.place(editor.find(".*", "^Viewport$"))
         editor.press(editor.find("toggle button", "^Edit$"))
         ui.wait(lambda: "needs the scene at its start" in (editor.message() or ""), "the refusal")
-        keep_picture(editor, "message")
+        editor.keep_picture("message")
         remedy = editor.place(editor.find("push button", "^Back to the start$"))
         assert editor.place(editor.find(".*", "^Viewport$")) == view and within(remedy, view), "a message lies over the view, and does not move it"
         figures = editor.place(editor.find("label", "^Time "))
@@ -3344,7 +3346,7 @@ def poured_while_its_button_is_down(editor, scene, x, y):
     let_time_pass(editor)
     assert editor.hud(poured) is None
     press_until(editor, ("keydown", "Control_L", "mouseup", 3, "mousedown", 3), lambda: (editor.hud(poured) or 0) > 0.3, "water to be poured")
-    keep_picture(editor, "irrigated")
+    editor.keep_picture("irrigated")
     press_until(editor, ("mouseup", 3, "keyup", "Control_L"), stands, "the button to let go")
     before = editor.hud(poured)
     editor.keys("o")
@@ -3377,7 +3379,7 @@ def which_instrument_is_led():
         ui.wait(lambda: editor.hud(r"Force on probe_1: (\d+\.\d+) N(?!  ·  )") is not None, "the probe to be led")
         assert editor.state("lead") == "probe_1"
         editor.find("table cell", "^Grasper$", showing=False)  # the outliner says what is the tool of two of one name
-        keep_picture(editor, "led")
+        editor.keep_picture("led")
         editor.find("label", "right button or C closes it, O lets go")
         shown = picture_sum(editor)
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
@@ -3479,7 +3481,7 @@ def links_are_tied_elsewhere():
         assert told() == "", told()
         editor.act("show-links")
         ui.wait(lambda: re.search(r"^Links: Spring \(yellow\): 1$", told()), "the legend of links")
-        keep_picture(editor, "links")
+        editor.keep_picture("links")
         editor.act("step")
         ui.wait(lambda: (editor.time_s() or 0) > 0, "a step")
         ui.wait(lambda: re.search(r"^Links: Spring \(yellow\): 1(; most now: .* N on \"left_spring\")?$", told()), "what it bears")
@@ -3713,7 +3715,7 @@ def a_clamp_becomes_a_clip():
             ui.wait(lambda: ('mode="effect"' in saved(editor, "clip")) == effect, "the mode to change")
             ui.wait(lambda: times.append(editor.time_s() or times[-1]) or times[-1] > times[0] + 0.1, "the run to go on")
             assert min(times) == times[0], (action, times)
-        keep_picture(editor, "clip")
+        editor.keep_picture("clip")
         assert not editor.message(), editor.message()
 
 
@@ -3747,7 +3749,7 @@ def blood_is_an_effect_and_physics_again():
             assert ('mode="effect"' in saved(editor, f"blood-{len(times)}")) == (contacts == 0), action
             ui.wait(lambda: (editor.time_s() or 0) > times[-1], "the run to go on")
             times.append(editor.time_s())
-            keep_picture(editor, f"blood-{len(times)}-{action or 'switch'}")
+            editor.keep_picture(f"blood-{len(times)}-{action or 'switch'}")
         assert times == sorted(times) and not editor.message(), (times, editor.message())
 
 
@@ -3849,7 +3851,7 @@ def advice_on_a_scene():
         said = ui.wait(lambda: editor.says("label", "(?s)^Replayed for 1 s.*"), "the advice").group()
         assert all(re.search(f"^{body}: (Physical|Effect|Still) \\(", said, re.MULTILINE) for body in ("ball", "mist")), said  # by the clock
         ui.wait(sensitive, "advice to apply")
-        keep_picture(editor, "advised")
+        editor.keep_picture("advised")
         editor.press(apply)
         ui.wait(lambda: editor.enabled("undo"), "the verdict")
         assert re.search('mode="auto"[^>]*advice="(effect|physical)"|advice="(effect|physical)"[^>]*mode="auto"', saved(editor, "advised")), path
