@@ -194,10 +194,11 @@ static gboolean may_write(const char *scene, const Request *request, GError **er
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
     if (files[i] && !spore_cli_has_room(files[i], scene, error)) return FALSE;
   if (!request->png) return TRUE;
+  g_autoptr(GError) why = NULL;
   g_autofree char *picture =
-      spore_svg_to_png("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\"/>", &size, error);
-  if (!picture) g_prefix_error(error, "%s", _("--png (--svg needs nothing else): "));
-  return picture != NULL;
+      spore_svg_to_png("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\"/>", &size, &why);
+  return picture ||
+         spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, "--png", _("%s, or write --svg instead"), why->message);
 }
 
 static gboolean study(SporeCli *cli, const char *file, const Request *request, SporeAccuracyOptions *options,
