@@ -1,6 +1,5 @@
 """An editor under a display, a session bus and an accessibility bus of its own, driven as a user's hands would or by its
 actions over D-Bus (named in ui/spore-window.h)."""
-import itertools
 import os
 import pathlib
 import re
@@ -72,6 +71,11 @@ def wait(condition, what, seconds=PATIENCE_S):
         while GLib.MainContext.default().iteration(False):
             pass
         time.sleep(min(max(0.05, 0.1 * waited), 0.5))  # to ask is work, for the editor too
+
+
+def says(*words):
+    """What a program writes."""
+    return subprocess.run(words, capture_output=True, text=True).stdout
 
 
 class Editor:
@@ -303,27 +307,39 @@ class Editor:
 
     # Hands.
 
-    def focus(self, title=None):
-        """Gives the keyboard to the newest window: there is no window manager here to do so."""
+    def focus(self):
+        """Gives the keyboard to the newest window that is no tooltip: there is no window manager here to do so."""
         active = self.atspi.StateType.ACTIVE
 
-        asked = itertools.count()
-
-        def xdotool(*words):
-            return subprocess.run(["xdotool", *words], capture_output=True, text=True).stdout.split()
-
-        def focused():  # the newest one may be about to close; one that had the keyboard before is told only when it gets it anew
-            if next(asked) % 5 == 4:
-                xdotool("windowfocus", xdotool("search", "--maxdepth", "0", ".*")[0])
-            xdotool("windowfocus", xdotool("search", "--onlyvisible", "--pid", str(self.process.pid))[-1])
+        def focused():  # the newest one may be about to close
+            newest = next(one for one in reversed(self._windows()) if not self._is_tooltip(one))
+            says("xdotool", "windowfocus", newest)
             return any(window.get_state_set().contains(active) for window in self.nodes("frame|dialog|file chooser"))
         wait(focused, "a window to be active")
+
+    def _windows(self):
+        return says("xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)).split()
+
+    def _is_tooltip(self, window):
+        return "TOOLTIP" in says("xprop", "-id", window, "_NET_WM_WINDOW_TYPE")
+
+    def tooltips(self):
+        """Windows that show them; the accessibility bus does not know them."""
+        return [one for one in self._windows() if self._is_tooltip(one)]
 
     def keys(self, *keys):
         subprocess.run(["xdotool", "key", "--clearmodifiers", *keys], check=True)
 
     def mouse(self, *words):
-        subprocess.run(["xdotool", *map(str, words)], check=True)
+        """Words of xdotool. Nothing is pressed where a tooltip lies still: the tooltip would have it."""
+        words = [str(word) for word in words]
+        press = next((at for at, word in enumerate(words) if word in ("click", "mousedown")), len(words))
+        if words[:1] == ["mousemove"] and press < len(words):
+            subprocess.run(["xdotool", *words[:press]], check=True)
+            under = lambda: re.search(r"window:(\d+)", says("xdotool", "getmouselocation"))[1]
+            wait(lambda: not self._is_tooltip(under()), "a tooltip to go")
+            words = words[press:]
+        subprocess.run(["xdotool", *words], check=True)
 
     def place(self, node):
         """(x, y, width, height) on the screen."""

@@ -494,7 +494,6 @@ def numbers_that_pay():
         editor.find("push button", "^Measure numbers$")
         x, y, width, height = editor.place(plot)
         editor.mouse("mousemove", x + 54, y + height // 2, "click", 1)
-        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
         editor.find("label", "(?s)8 spheres.*Coverage", 60)
         editor.focus()
         editor.keys("Right", "Return")
@@ -707,7 +706,6 @@ def region_placed_in_the_view():
             return [float(n) / 1000 for n in " ".join(shown).split()]
 
         first = numbers()
-        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
         editor.focus()
         # The middle, held: the numbers follow before it is let go, and Escape takes it back.
         editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 40, 0, "sleep", 0.2)
@@ -1233,7 +1231,6 @@ def a_region_is_painted():
         x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
         middle = x + width // 2, y + height // 2
         dabs = lambda: saved(editor, "painted").count("<dab")
-        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
         editor.focus()
         stroke = ("mousemove_relative", "--", 30, 0, "mousemove_relative", "--", 30, 0)
         editor.mouse("mousemove", *middle, "mousedown", 1, *stroke, "key", "Escape", "mouseup", 1)
@@ -2303,6 +2300,27 @@ def rows_of_the_outliner_are_ordered():
         ui.wait(lambda: not editor.look("label", "is hidden"), "it to be shown")
         editor.act("unlock-all")
         ui.wait(lambda: not editor.enabled("unlock-all"), "the lock to go")
+
+
+@check
+def a_row_says_what_it_has_no_room_for():
+    """where the mouse rests on a row of the outliner, a name that is cut off is told in full; a row that says everything tells nothing, which would lie over its neighbours."""
+    path = write_scene("told", "<rigid_body/>")
+    long_name = "the_ball_whose_name_is_longer_than_any_row"
+    path.write_text(path.read_text().replace('<body name="ball"', f'<body name="{long_name}"'))
+    with start(path) as editor:
+        def rest_on(row):
+            x, y, width, height = editor.place(ui.wait(lambda: editor.row(row), row))
+            editor.mouse("mousemove", x + 10, y + height // 2 + 1)
+            editor.mouse("mousemove", x + 11, y + height // 2)
+        rest_on(long_name)
+        ui.wait(editor.tooltips, "the whole name")
+        editor.keep_picture("told")
+        rest_on("floor")
+        ui.wait(lambda: not editor.tooltips(), "it to go")
+        for _ in range(12):  # twice as long as one takes to come
+            assert not editor.tooltips(), "nothing is told of a short name"
+            time.sleep(0.1)
 
 
 @check

@@ -8,7 +8,7 @@ enum {
   COLUMN_ID, /* of the object; 0: a heading, or a folder below one */
   COLUMN_NAME,
   COLUMN_BADGE,
-  COLUMN_HINT /* markup */,
+  COLUMN_PROBLEM,
   COLUMN_NAMED,
   COLUMN_WEIGHT,
   COLUMN_KIND,

@@ -42,10 +42,8 @@ static const char *lock_of(SporeOutliner *self, const SporeObject *object) {
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
   guint32 id = spore_object_id(object);
   const char *problem = g_hash_table_lookup(self->problems, GUINT_TO_POINTER(id));
-  g_autofree char *hint = g_markup_printf_escaped("%s%s%s", _(spore_object_type(object)->label), problem ? "\n" : "",
-                                                  problem ? problem : "");
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
-                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_NAMED, TRUE,
+                                    COLUMN_BADGE, badge_of(self, id), COLUMN_PROBLEM, problem, COLUMN_NAMED, TRUE,
                                     COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, kind_of(object), COLUMN_EYE,
                                     eye_of(self, object), COLUMN_LOCK, lock_of(self, object), -1);
 }
@@ -77,9 +75,8 @@ static GtkTreeIter row_above(SporeOutliner *self, GtkTreeIter *group, const Spor
   GtkTreeIter *known = folder ? g_hash_table_lookup(folders, folder) : NULL, row;
   if (!folder) return *group;
   if (known) return *known;
-  gtk_tree_store_insert_with_values(self->store, &row, group, -1, COLUMN_ID, 0, COLUMN_NAME, folder, COLUMN_HINT,
-                                    _("Folder"), COLUMN_NAMED, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND,
-                                    _("Folder"), -1);
+  gtk_tree_store_insert_with_values(self->store, &row, group, -1, COLUMN_ID, 0, COLUMN_NAME, folder, COLUMN_NAMED, TRUE,
+                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, COLUMN_KIND, _("Folder"), -1);
   g_hash_table_insert(folders, g_strdup(folder), gtk_tree_iter_copy(&row));
   return row;
 }
@@ -446,6 +443,32 @@ static gboolean tree_pressed(GtkWidget *tree, GdkEventButton *event, SporeOutlin
   return GDK_EVENT_STOP;
 }
 
+/* What a row says when the mouse rests on it: what the row has no room for. More than that would lie over its
+ * neighbours for nothing. */
+
+static gboolean is_cut(SporeOutliner *self, GtkTreeModel *model, GtkTreeIter *iter) {
+  int natural, width;
+  gtk_tree_view_column_cell_set_cell_data(self->column, model, iter, FALSE, FALSE);
+  gtk_cell_renderer_get_preferred_width(GTK_CELL_RENDERER(self->name), self->tree, NULL, &natural);
+  return gtk_tree_view_column_cell_get_position(self->column, GTK_CELL_RENDERER(self->name), NULL, &width) &&
+         natural > width;
+}
+
+static gboolean tree_tooltip(GtkWidget *tree, int x, int y, gboolean by_keyboard, GtkTooltip *tooltip,
+                             SporeOutliner *self) {
+  g_autoptr(GtkTreePath) path = NULL;
+  g_autofree char *name = NULL, *problem = NULL;
+  GtkTreeModel *model;
+  GtkTreeIter iter;
+  if (!gtk_tree_view_get_tooltip_context(GTK_TREE_VIEW(tree), &x, &y, by_keyboard, &model, &path, &iter)) return FALSE;
+  gtk_tree_model_get(model, &iter, COLUMN_NAME, &name, COLUMN_PROBLEM, &problem, -1);
+  if (!is_cut(self, model, &iter)) g_clear_pointer(&name, g_free);
+  g_autofree char *text = g_strconcat(name ? name : "", name && problem ? "\n" : "", problem, NULL);
+  gtk_tooltip_set_text(tooltip, text);
+  gtk_tree_view_set_tooltip_row(GTK_TREE_VIEW(tree), tooltip, path);
+  return *text != '\0';
+}
+
 /* Life. */
 
 static void release_document(SporeOutliner *self) {
@@ -511,6 +534,7 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeOutliner, name);
   gtk_widget_class_bind_template_callback(widget, filter_changed);
   gtk_widget_class_bind_template_callback(widget, row_selected);
+  gtk_widget_class_bind_template_callback(widget, tree_tooltip);
   gtk_widget_class_bind_template_callback(widget, name_edited);
   gtk_widget_class_bind_template_callback(widget, tree_key);
   gtk_widget_class_bind_template_callback(widget, tree_pressed);
