@@ -87,13 +87,21 @@ class Editor:
         from gi.repository import Atspi, Gio
         self.atspi, self.gio = Atspi, Gio
         self.bus = Gio.bus_get_sync(Gio.BusType.SESSION, None)
+        self.opened = [name for name in map(str, arguments) if name.endswith((".spore", ".sporez")) and os.path.exists(name)]
         self.process = subprocess.Popen([program, *map(str, arguments)], env={**os.environ, **(environment or {})},
                                         stderr=subprocess.PIPE, text=True, errors="replace")
 
     def __enter__(self):
         wait(lambda: self.describe("play") is not None, "the editor's window")
         self.application = wait(self._find_application, "the editor on the accessibility bus")
+        if self.opened:
+            wait(self._is_open, "the scene to be open")
         return self
+
+    def _is_open(self):
+        """What is done before would be done to the empty scene that is there until then. What cannot be opened is told."""
+        name = os.path.basename(self.opened[0])
+        return any(window.get_name().endswith(name) for window in self.nodes("frame")) or self.nodes("info bar|dialog|alert")
 
     def __exit__(self, kind, error, trace):
         if kind:
@@ -351,6 +359,7 @@ class Editor:
         folder = os.environ.get("SPORE_PICTURES")
         if not folder:
             return
+        os.makedirs(folder, exist_ok=True)
         import gi
         gi.require_version("Gdk", "3.0")
         from gi.repository import Gdk
