@@ -10,8 +10,8 @@
 #include "core/author/accuracy_study.h"
 #include "core/author/sphere_sets.h"
 #include "core/base/number.h"
-#include "ui/render/svg.h"
 #include "core/io/scene_xml.h"
+#include "ui/render/svg.h"
 
 #define STEPS_MOST 20
 #define LONGEST_S 1e4

@@ -21,6 +21,9 @@
 #define MARGIN_SHARE 0.7 /* around a legend, and inside */
 #define STOPS 16         /* of the scale of colours */
 
+const double spore_legend_ground[2][4] = {{0.04, 0.05, 0.055, 0.62}, {0.99, 0.99, 1, 0.8}};
+const double spore_legend_letters[2][3] = {{0.91, 0.92, 0.93}, {0.11, 0.12, 0.13}};
+
 guint spore_legend_rows(const SporeStageLegend *legend, gboolean brief, SporeLegendRow rows[SPORE_LEGEND_ROWS]) {
   guint count = 0;
   gboolean remarks = !brief || !legend->high;
@@ -143,17 +146,15 @@ static void append_row(GString *svg, const Sheet *sheet, const SporeLegendRow *r
 }
 
 static char *draw_sheet(const Sheet *sheet, gboolean light) {
-  static const double grounds[2][3] = {{0.04, 0.05, 0.055}, {0.99, 0.99, 1}};
-  static const double inks[2][3] = {{0.91, 0.92, 0.93}, {0.11, 0.12, 0.13}};
   double margin = MARGIN_SHARE * sheet->letters, width = sheet->at.width - 2 * margin, y = margin;
   GString *svg = g_string_new(NULL);
   g_string_append_printf(svg, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\">", sheet->at.width,
                          sheet->at.height);
   append_scale(svg);
-  append_box(svg, 0, 0, sheet->at.width, sheet->at.height, grounds[light],
-             light ? "fill-opacity=\"0.8\"" : "fill-opacity=\"0.62\"");
+  g_autofree char *opacity = g_strdup_printf("fill-opacity=\"%d%%\"", (int)lround(100 * spore_legend_ground[light][3]));
+  append_box(svg, 0, 0, sheet->at.width, sheet->at.height, spore_legend_ground[light], opacity);
   g_string_append_printf(svg, "<g font-family=\"sans-serif\" font-size=\"%d\" fill=\"", (int)lround(sheet->letters));
-  append_colour(svg, inks[light]);
+  append_colour(svg, spore_legend_letters[light]);
   g_string_append(svg, "\">");
   for (guint i = 0; i < sheet->row_count; i++) {
     append_row(svg, sheet, &sheet->rows[i], margin, y, width);

@@ -19,6 +19,10 @@ typedef struct SporeLegendRow {
 } SporeLegendRow;
 #define SPORE_LEGEND_ROWS (6 + SPORE_STAGE_LINK_KINDS)
 
+/* On which legends and figures stand over a picture, and their letters: of a screen and an opacity, 0..1. [1]: in the
+ * light room. */
+extern const double spore_legend_ground[2][4], spore_legend_letters[2][3];
+
 /* The rows of the legend, which own nothing: they are valid until the legend is cleared. brief: without remarks, where
  * it has a scale. Returns their number. */
 guint spore_legend_rows(const SporeStageLegend *legend, gboolean brief, SporeLegendRow rows[SPORE_LEGEND_ROWS]);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "ui/panels/report.h"
+#include "ui/render/legend.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define FIELD_OF_VIEW_RAD 0.61
@@ -260,13 +261,13 @@ void spore_viewport_stroke(cairo_t *cr, const double colour[4], double width) {
 }
 
 void spore_viewport_set_ground(SporeViewport *self, cairo_t *cr) {
-  if (self->light) cairo_set_source_rgba(cr, 0.99, 0.99, 1, 0.8);
-  else cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
+  const double *ground = spore_legend_ground[self->light ? 1 : 0];
+  cairo_set_source_rgba(cr, ground[0], ground[1], ground[2], ground[3]);
 }
 
 void spore_viewport_set_letters(SporeViewport *self, cairo_t *cr) {
-  if (self->light) cairo_set_source_rgb(cr, 0.11, 0.12, 0.13);
-  else cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+  const double *letters = spore_legend_letters[self->light ? 1 : 0];
+  cairo_set_source_rgb(cr, letters[0], letters[1], letters[2]);
 }
 
 void spore_viewport_draw_cross(SporeViewport *self, cairo_t *cr) {
